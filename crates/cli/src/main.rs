@@ -1,0 +1,2 @@
+//! The posewire command.
+fn main() {}
