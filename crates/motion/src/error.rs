@@ -1,0 +1,31 @@
+//! What can be wrong with a pose's description.
+
+/// What can be wrong with a pose's description.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// Text that is not a time of day.
+    #[error("not a timecode: expected HH:MM:SS.mmm, found {found:?}")]
+    Timecode {
+        /// The text.
+        found: String,
+    },
+    /// Text that is not a colour.
+    #[error("not a colour: expected RRGGBB in hexadecimal, found {found:?}")]
+    Color {
+        /// The text.
+        found: String,
+    },
+    /// A frame whose section does not fit the subject's skeleton.
+    #[error("{section} of sample {sample}: expected {expected} entries, found {found}")]
+    SectionLength {
+        /// The section, as a field of [`crate::Frame`].
+        section: &'static str,
+        /// The frame's sample number.
+        sample: u32,
+        /// Entries that the skeleton asks for.
+        expected: usize,
+        /// Entries that the frame holds.
+        found: usize,
+    },
+}

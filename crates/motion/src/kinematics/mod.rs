@@ -1,0 +1,1 @@
+//! What follows from poses: joint angles, velocities, accelerations.
