@@ -1,0 +1,409 @@
+//! The numbers that name segments, points and joints on the wire (MV0305 2.5.9, 2.5.10, 3.1).
+//!
+//! Names and the skeleton itself belong to `posewire-motion`; here are the numbers only.
+
+use std::fmt;
+
+use crate::{Quirk, Quirks};
+
+/// Number of body segments of a full character.
+pub const BODY_SEGMENTS: u8 = 23;
+
+/// Number of finger segments of one hand.
+pub const HAND_SEGMENTS: u8 = 20;
+
+/// The ID of a segment: 1 is the pelvis, 23 the left toe, then props, left hand, right hand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SegmentId(pub u32);
+
+impl SegmentId {
+    /// The pelvis, the first segment of every body.
+    pub const PELVIS: Self = Self(1);
+
+    /// The first prop; the others follow without a gap.
+    pub const FIRST_PROP: Self = Self(24);
+}
+
+impl fmt::Display for SegmentId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+/// The ID of a point on a segment: 256 x segment ID + local ID (MV0305 2.5.10).
+///
+/// Other numbers occur (100 x segment ID, tag IDs); they are kept as they came.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PointId(pub u32);
+
+impl PointId {
+    /// The point with this local ID on a segment.
+    pub const fn new(segment: SegmentId, local: u8) -> Self {
+        Self(segment.0.wrapping_mul(256).wrapping_add(local as u32))
+    }
+
+    /// The segment the point is on.
+    pub const fn segment(self) -> SegmentId {
+        SegmentId(self.0 >> 8)
+    }
+
+    /// The number of the point on its segment.
+    pub const fn local(self) -> u8 {
+        (self.0 & 0xFF) as u8
+    }
+}
+
+impl fmt::Display for PointId {
+    /// Segment and local ID, `1.13` for the sacrum.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}.{}", self.segment(), self.local())
+    }
+}
+
+/// How many segments of each kind a character has (MV0305 2.4.1.7 to 2.4.1.9).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
+pub struct SegmentCounts {
+    /// Body segments, usually 23.
+    pub body: u8,
+    /// Props, 0 to 4.
+    pub props: u8,
+    /// Finger segments of both hands together, 0 or 40.
+    pub fingers: u8,
+}
+
+/// What a segment ID means, each with a 0-based number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Place {
+    /// Body segment 0 to 22, pelvis first.
+    Body(u8),
+    /// Prop 0 to 3.
+    Prop(u8),
+    /// Segment 0 to 19 of the left hand, carpus first.
+    LeftHand(u8),
+    /// Segment 0 to 19 of the right hand, carpus first.
+    RightHand(u8),
+}
+
+impl SegmentCounts {
+    /// A body without props and fingers.
+    pub const BODY: Self = Self {
+        body: BODY_SEGMENTS,
+        props: 0,
+        fingers: 0,
+    };
+
+    /// A full body with so many props, and with fingers or not.
+    pub const fn new(props: u8, fingers: bool) -> Self {
+        Self {
+            body: BODY_SEGMENTS,
+            props,
+            fingers: if fingers { 2 * HAND_SEGMENTS } else { 0 },
+        }
+    }
+
+    /// What a pose of `items` segments is made of when the header does not say (Rev J): up to 23
+    /// are body, up to four more are props, and 63 to 67 have fingers as well.
+    pub fn from_items(items: usize) -> Option<Self> {
+        let items = u8::try_from(items).ok()?;
+        let full = BODY_SEGMENTS + 2 * HAND_SEGMENTS;
+        match items {
+            0..=BODY_SEGMENTS => Some(Self {
+                body: items,
+                ..Self::default()
+            }),
+            24..=27 => Some(Self::new(items - BODY_SEGMENTS, false)),
+            63..=67 => Some(Self::new(items - full, true)),
+            _ => None,
+        }
+    }
+
+    /// Number of segments in all.
+    pub const fn total(self) -> usize {
+        self.body as usize + self.props as usize + self.fingers as usize
+    }
+
+    /// What a segment ID means in a character with these counts; `None` for an ID it does not have.
+    ///
+    /// Props begin at 24 and the hands follow the props there are.
+    pub fn place(self, id: SegmentId) -> Option<Place> {
+        let index = u8::try_from(id.0.checked_sub(1)?).ok()?;
+        let Some(after_body) = index.checked_sub(BODY_SEGMENTS) else {
+            return (index < self.body).then_some(Place::Body(index));
+        };
+        let Some(finger) = after_body.checked_sub(self.props) else {
+            return Some(Place::Prop(after_body));
+        };
+        match finger.checked_sub(HAND_SEGMENTS) {
+            _ if finger >= self.fingers => None,
+            None => Some(Place::LeftHand(finger)),
+            Some(finger) => Some(Place::RightHand(finger)),
+        }
+    }
+
+    /// The ID of a place in a character with these counts.
+    pub fn id(self, place: Place) -> SegmentId {
+        let first_finger = BODY_SEGMENTS + self.props;
+        let (base, index) = match place {
+            Place::Body(index) => (0, index),
+            Place::Prop(index) => (BODY_SEGMENTS, index),
+            Place::LeftHand(index) => (first_finger, index),
+            Place::RightHand(index) => (first_finger + HAND_SEGMENTS, index),
+        };
+        SegmentId(1 + u32::from(base) + u32::from(index))
+    }
+
+    /// The highest segment ID, or the highest there can be when the counts are not known (Rev J).
+    pub const fn last_id(self) -> SegmentId {
+        if self.body == 0 {
+            return SegmentId(67);
+        }
+        SegmentId(BODY_SEGMENTS as u32 + self.props as u32 + self.fingers as u32)
+    }
+}
+
+/// What is unusual about the segment IDs of a whole sample, in the order they came; `None` when they
+/// are 1, 2, 3 and so on, as they should be.
+///
+/// With any of the four answers a segment is known by its position in the sample only.
+#[inline]
+pub fn numbering_quirk<I>(ids: &I, counts: SegmentCounts) -> Option<Quirk>
+where
+    I: ExactSizeIterator<Item = SegmentId> + Clone,
+{
+    if follows(ids.clone(), |position| position + 1) {
+        return None;
+    }
+    Some(unusual_numbering(ids, counts))
+}
+
+/// Like [`numbering_quirk`] for one part of a split sample, whose first ID is not known.
+#[inline]
+pub fn part_numbering_quirk<I>(ids: &I) -> Option<Quirk>
+where
+    I: ExactSizeIterator<Item = SegmentId> + Clone,
+{
+    let first = ids.clone().next()?.0;
+    if !follows(ids.clone(), |position| first.wrapping_add(position)) {
+        return Some(Quirk::SegmentIds);
+    }
+    (first == 0).then_some(Quirk::SegmentIdsFromZero)
+}
+
+/// The segments that carry a motion tracker, in the order of the wire (type 23).
+pub const TRACKER_SEGMENTS: [SegmentId; 17] = {
+    let numbers = [1, 5, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 20, 21, 22];
+    let mut ids = [SegmentId(0); 17];
+    let mut n = 0;
+    while n < ids.len() {
+        ids[n] = SegmentId(numbers[n]);
+        n += 1;
+    }
+    ids
+};
+
+/// The order of the Unity pose (MV0305 3.1, table 3): at each position of a type 05 datagram, the
+/// 0-based index of the body segment in the usual order.
+pub const UNITY_ORDER: [u8; 23] = [
+    0, 15, 16, 17, 18, 19, 20, 21, 22, 1, 2, 3, 4, 11, 12, 13, 14, 7, 8, 9, 10, 5, 6,
+];
+
+/// The 28 joints of type 20: the point on the parent segment and the point on the child segment.
+///
+/// The first 22 are anatomical, the last six ergonomic. Numbers 25 and 27 (0-based) share a pair of
+/// IDs, so ergonomic joints are known by position only.
+pub const JOINTS: [(PointId, PointId); 28] = [
+    joint(0x0102, 0x0201),
+    joint(0x0202, 0x0301),
+    joint(0x0302, 0x0401),
+    joint(0x0402, 0x0501),
+    joint(0x0502, 0x0601),
+    joint(0x0602, 0x0701),
+    joint(0x0503, 0x0801),
+    joint(0x0802, 0x0901),
+    joint(0x0902, 0x0A01),
+    joint(0x0A02, 0x0B01),
+    joint(0x0504, 0x0C01),
+    joint(0x0C02, 0x0D01),
+    joint(0x0D02, 0x0E01),
+    joint(0x0E02, 0x0F01),
+    joint(0x0103, 0x1001),
+    joint(0x1002, 0x1101),
+    joint(0x1102, 0x1201),
+    joint(0x1202, 0x1301),
+    joint(0x0104, 0x1401),
+    joint(0x1402, 0x1501),
+    joint(0x1502, 0x1601),
+    joint(0x1602, 0x1701),
+    joint(0x0500, 0x0700),
+    joint(0x0500, 0x0D00),
+    joint(0x0500, 0x0900),
+    joint(0x0100, 0x0500),
+    joint(0x0100, 0x0100),
+    joint(0x0100, 0x0500),
+];
+
+/// Number of anatomical joints in [`JOINTS`].
+pub const ANATOMICAL_JOINTS: usize = 22;
+
+const fn joint(parent: u32, child: u32) -> (PointId, PointId) {
+    (PointId(parent), PointId(child))
+}
+
+#[inline]
+fn follows(ids: impl Iterator<Item = SegmentId>, expected: impl Fn(u32) -> u32) -> bool {
+    ids.zip(0..).all(|(id, position)| id.0 == expected(position))
+}
+
+#[cold]
+fn unusual_numbering<I>(ids: &I, counts: SegmentCounts) -> Quirk
+where
+    I: ExactSizeIterator<Item = SegmentId> + Clone,
+{
+    let body = u32::from(BODY_SEGMENTS);
+    let fingers = finger_position(ids.len(), counts);
+    let is = |expected: &dyn Fn(u32) -> u32| follows(ids.clone(), expected);
+    let late_props = |p: u32| p + 1 + u32::from(p >= body);
+    let late_props_only = |p: u32| p + 1 + u32::from(p >= body && p < fingers);
+    let restart = |base: u32, period: u32| {
+        move |p: u32| match p.checked_sub(fingers) {
+            None => p + 1,
+            Some(finger) => base + finger % period,
+        }
+    };
+    let hand = u32::from(HAND_SEGMENTS);
+    if is(&|p| p) {
+        Quirk::SegmentIdsFromZero
+    } else if is(&late_props) || is(&late_props_only) {
+        Quirk::PropIdsFrom25
+    } else if (0..2).any(|base| is(&restart(base, hand)) || is(&restart(base, 2 * hand))) {
+        Quirk::FingerIdsRestart
+    } else {
+        Quirk::SegmentIds
+    }
+}
+
+/// Where the first finger is in a sample of so many segments.
+fn finger_position(items: usize, counts: SegmentCounts) -> u32 {
+    let known = SegmentCounts::from_items(items).filter(|_| counts.body == 0);
+    let props = known.unwrap_or(counts).props;
+    u32::from(BODY_SEGMENTS) + u32::from(props)
+}
+
+/// Whether a point ID names a point of a segment that the character can have.
+#[inline]
+pub(crate) fn is_known_point(id: PointId, counts: SegmentCounts) -> bool {
+    let segment = id.segment();
+    segment >= SegmentId::PELVIS && segment <= counts.last_id()
+}
+
+/// Quirks of the joint IDs of one type 20 datagram.
+pub(crate) fn joint_quirks<I>(pairs: I) -> Quirks
+where
+    I: ExactSizeIterator<Item = (PointId, PointId)>,
+{
+    let mut quirks = Quirks::NONE;
+    quirks.insert_if(pairs.len() == ANATOMICAL_JOINTS, Quirk::Joints22);
+    for (position, pair) in pairs.enumerate() {
+        let known = JOINTS.get(position) == Some(&pair) || JOINTS.contains(&pair);
+        quirks.insert_if(!known, Quirk::JointId);
+    }
+    quirks
+}
+
+/// Whether a tracker can sit on this segment: one of the 17, or a prop.
+pub(crate) fn carries_tracker(id: SegmentId) -> bool {
+    TRACKER_SEGMENTS.contains(&id) || (24..=27).contains(&id.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn quirk_of(ids: &[u32], counts: SegmentCounts) -> Option<Quirk> {
+        numbering_quirk(&ids.iter().map(|id| SegmentId(*id)), counts)
+    }
+
+    #[test]
+    fn fingers_follow_the_props_that_are_there() {
+        for props in 0..=4 {
+            let counts = SegmentCounts::new(props, true);
+            let left = SegmentId(24 + u32::from(props));
+            let right = SegmentId(44 + u32::from(props));
+            assert_eq!(counts.place(left), Some(Place::LeftHand(0)));
+            assert_eq!(counts.place(right), Some(Place::RightHand(0)));
+            assert_eq!(counts.place(SegmentId(right.0 + 20)), None);
+            assert_eq!(counts.last_id(), SegmentId(right.0 + 19));
+        }
+    }
+
+    #[test]
+    fn place_and_id_are_each_other_s_inverse() {
+        for counts in [SegmentCounts::BODY, SegmentCounts::new(2, true)] {
+            for id in (1..=counts.last_id().0).map(SegmentId) {
+                assert_eq!(counts.id(counts.place(id).unwrap()), id);
+            }
+            assert_eq!(counts.place(SegmentId(0)), None);
+            assert_eq!(counts.place(SegmentId(u32::MAX)), None);
+        }
+    }
+
+    #[test]
+    fn item_counts_tell_what_an_old_header_leaves_out() {
+        let props = |items| SegmentCounts::from_items(items).map(|c| (c.props, c.fingers));
+        assert_eq!(props(23), Some((0, 0)));
+        assert_eq!(props(25), Some((2, 0)));
+        assert_eq!(props(64), Some((1, 40)));
+        assert_eq!(props(40), None);
+        assert_eq!(props(1000), None);
+    }
+
+    #[test]
+    fn points_are_256_times_their_segment() {
+        let sacrum = PointId::new(SegmentId::PELVIS, 13);
+        assert_eq!(sacrum, PointId(269));
+        assert_eq!((sacrum.segment(), sacrum.local()), (SegmentId(1), 13));
+        assert!(is_known_point(sacrum, SegmentCounts::BODY));
+        assert!(!is_known_point(PointId(113), SegmentCounts::BODY));
+    }
+
+    #[test]
+    fn usual_numbers_are_no_quirk() {
+        let ids: Vec<u32> = (1..=23).collect();
+        assert_eq!(quirk_of(&ids, SegmentCounts::BODY), None);
+        let part = (12..=23).map(SegmentId).collect::<Vec<_>>();
+        assert_eq!(part_numbering_quirk(&part.into_iter()), None);
+    }
+
+    #[test]
+    fn unusual_numbers_have_names() {
+        let zero: Vec<u32> = (0..23).collect();
+        let props: Vec<u32> = (1..=23).chain([25, 26]).collect();
+        let fingers: Vec<u32> = (1..=24).chain(0..20).chain(0..20).collect();
+        let mixed: Vec<u32> = (1..=22).chain([90]).collect();
+        let body = SegmentCounts::BODY;
+        let with_props = SegmentCounts::new(2, false);
+        assert_eq!(quirk_of(&zero, body), Some(Quirk::SegmentIdsFromZero));
+        assert_eq!(quirk_of(&props, with_props), Some(Quirk::PropIdsFrom25));
+        let restart = Some(Quirk::FingerIdsRestart);
+        assert_eq!(quirk_of(&fingers, SegmentCounts::new(1, true)), restart);
+        assert_eq!(quirk_of(&fingers, SegmentCounts::default()), restart);
+        assert_eq!(quirk_of(&mixed, body), Some(Quirk::SegmentIds));
+    }
+
+    #[test]
+    fn unity_order_is_a_permutation() {
+        let mut order = UNITY_ORDER;
+        order.sort_unstable();
+        assert!(order.into_iter().eq(0..23));
+    }
+
+    #[test]
+    fn twenty_two_known_joints_are_one_quirk() {
+        let all = joint_quirks(JOINTS.into_iter());
+        assert!(all.is_empty());
+        let fewer = joint_quirks(JOINTS[..22].iter().copied());
+        assert_eq!(fewer, Quirk::Joints22.into());
+        let unknown = joint_quirks([joint(1, 2)].into_iter());
+        assert_eq!(unknown, Quirk::JointId.into());
+    }
+}
