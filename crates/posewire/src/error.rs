@@ -1,0 +1,249 @@
+//! What can go wrong in the engine, and what to do about it.
+
+use std::io;
+use std::time::Duration;
+
+/// A result whose error is the engine's [`Error`].
+pub type Result<T, E = Error> = std::result::Result<T, E>;
+
+/// What went wrong: each variant says where, what was expected and what was found.
+///
+/// [`Error::help`] adds what to do about it.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A part of an endpoint URL is not what it must be.
+    #[error("{url}: expected {expected} as the {part}, found {found:?}")]
+    Url {
+        /// The whole endpoint as given.
+        url: String,
+        /// The part at fault: "port", "host", the name of an option ...
+        part: &'static str,
+        /// What that part must be.
+        expected: &'static str,
+        /// What stands there.
+        found: String,
+    },
+    /// An endpoint URL has an option that its scheme does not know.
+    #[error("{url}: unknown option {found:?}, expected {}", listed(known))]
+    UnknownOption {
+        /// The whole endpoint as given.
+        url: String,
+        /// The unknown key.
+        found: String,
+        /// The keys that the scheme knows.
+        known: &'static [&'static str],
+    },
+    /// An endpoint URL names a scheme that does not exist here.
+    #[error("{url}: unknown scheme {found:?}, expected {}", listed(known))]
+    UnknownScheme {
+        /// The whole endpoint as given.
+        url: String,
+        /// The scheme found.
+        found: String,
+        /// The schemes that exist.
+        known: &'static [&'static str],
+    },
+    /// A scheme or file format that is planned but not there yet.
+    #[error("{endpoint}: {what} is not supported yet")]
+    NotSupportedYet {
+        /// The whole endpoint as given.
+        endpoint: String,
+        /// The scheme or format.
+        what: &'static str,
+    },
+    /// A file in MVN's own closed format.
+    #[error("{path}: the .mvn format is proprietary: export MVNX from MVN")]
+    Proprietary {
+        /// The file as given.
+        path: String,
+    },
+    /// A path whose ending names no known format.
+    #[error("{path}: expected a file that ends in {}, or a URL", listed(known))]
+    UnknownFormat {
+        /// The path as given.
+        path: String,
+        /// The known endings.
+        known: &'static [&'static str],
+    },
+    /// A host name that leads to no address.
+    #[error("cannot find the address of host {host:?}: {reason}")]
+    Resolve {
+        /// The host name.
+        host: String,
+        /// What the system's resolver says.
+        reason: String,
+    },
+    /// A network interface that is not there, or lacks an address of the needed kind.
+    #[error("network interface {name:?} {problem}")]
+    Interface {
+        /// The interface's name or address as given.
+        name: String,
+        /// What it lacks.
+        problem: &'static str,
+        /// The interfaces that are there, each with its addresses.
+        available: Vec<String>,
+    },
+    /// The operating system refused an action on a socket.
+    #[error("cannot {action} {address}: {reason}")]
+    Socket {
+        /// What was tried: "listen on", "connect to", "send to" ...
+        action: &'static str,
+        /// The address, as `transport HOST:PORT`.
+        address: String,
+        /// The kind of failure.
+        kind: io::ErrorKind,
+        /// What the system says.
+        reason: String,
+    },
+    /// A peer took no more data within the limit.
+    #[error("{peer} took {written} of {length} bytes within {limit:?}")]
+    Stalled {
+        /// The peer's address.
+        peer: String,
+        /// How many bytes it took.
+        written: usize,
+        /// How many bytes there were.
+        length: usize,
+        /// The time it had.
+        limit: Duration,
+    },
+    /// A playback speed that no clock can run at.
+    #[error("expected a finite playback speed above 0, found {found}")]
+    Speed {
+        /// The speed as given.
+        found: String,
+    },
+}
+
+impl Error {
+    /// What to do about the error, as one sentence without a full stop, where there is something
+    /// to do.
+    pub fn help(&self) -> Option<String> {
+        match self {
+            Self::Url { part, .. } => Some(url_help(part)),
+            Self::UnknownOption { known: [], .. } => Some("remove the part after the ?".into()),
+            Self::UnknownOption { known, .. } => Some(format!("use {}", listed(known))),
+            Self::UnknownScheme { known, .. } => Some(format!("use {}, or the path of a file", listed(known))),
+            Self::NotSupportedYet { .. } => Some("use mxtp://, mxtp+tcp://, synthetic:walk or an .mvnx file".into()),
+            Self::Proprietary { .. } => Some("open the take in MVN, export it as MVNX and use the .mvnx file".into()),
+            Self::UnknownFormat { path, .. } => Some(path_help(path)),
+            Self::Resolve { host, .. } => Some(format!("check the spelling of {host:?}, or use the numeric address")),
+            Self::Interface { available, .. } => Some(format!("this machine has: {}", available.join(", "))),
+            Self::Socket { address, kind, .. } => socket_help(address, *kind),
+            Self::Stalled { peer, .. } => Some(format!("check that the program at {peer} reads its connection")),
+            Self::Speed { .. } => Some("1 is real time, 0.5 half as fast".into()),
+        }
+    }
+
+    /// The refusal of `action` ("listen on", "send to" ...) on `address` by the system.
+    pub(crate) fn socket(action: &'static str, address: String, error: &io::Error) -> Self {
+        Self::Socket {
+            action,
+            address,
+            kind: error.kind(),
+            reason: reason(error),
+        }
+    }
+}
+
+/// The system's words without the "(os error 98)" that says nothing to a reader.
+pub(crate) fn reason(error: &io::Error) -> String {
+    let text = error.to_string();
+    let end = text.find(" (os error").unwrap_or(text.len());
+    text[..end].to_lowercase()
+}
+
+fn url_help(part: &str) -> String {
+    match part {
+        "host" | "port" | "address" => "write HOST, HOST:PORT or [IPV6]:PORT, as in mxtp://127.0.0.1:9763".into(),
+        "interface" => "name it as the system does, as in interface=eth0, or by address".into(),
+        "generator" => "write synthetic:walk, as in synthetic:walk?people=2&rate=240".into(),
+        "scheme" => "write mxtp://HOST:PORT, mxtp+tcp://HOST:PORT or synthetic:walk".into(),
+        option => format!("correct {option}, or leave it out for its default"),
+    }
+}
+
+/// An address without a scheme is the likely mistake when a "path" looks like one.
+fn path_help(path: &str) -> String {
+    let looks_like_address = path
+        .rsplit_once(':')
+        .is_some_and(|(_, port)| port.parse::<u16>().is_ok())
+        || path.parse::<std::net::IpAddr>().is_ok();
+    if looks_like_address {
+        format!("for a network address write mxtp://{path}")
+    } else {
+        "give an .mvnx file, mxtp://HOST:PORT, or synthetic:walk".into()
+    }
+}
+
+fn socket_help(address: &str, kind: io::ErrorKind) -> Option<String> {
+    let place = address.split_once(' ').map_or(address, |(_, place)| place);
+    let text = match kind {
+        io::ErrorKind::AddrInUse => {
+            format!("another program listens on {place}: stop it or choose another port")
+        }
+        io::ErrorKind::AddrNotAvailable => {
+            format!("{place} is not an address of this machine: use one of its own, or 0.0.0.0 for all")
+        }
+        io::ErrorKind::PermissionDenied => {
+            "ports below 1024 and some interfaces need privileges: use another port, or check the \
+             firewall"
+                .into()
+        }
+        io::ErrorKind::NetworkUnreachable | io::ErrorKind::HostUnreachable => {
+            format!("no route leads to {place}: check the cable, the address and the network mask")
+        }
+        io::ErrorKind::ConnectionRefused => {
+            format!("nothing listens on {place}: start the receiving program first, or check the port")
+        }
+        io::ErrorKind::TimedOut => {
+            format!("{place} does not answer: check the address, and that no firewall is in the way")
+        }
+        _ => return None,
+    };
+    Some(text)
+}
+
+/// "a", "a or b", "a, b or c".
+fn listed(words: &[&str]) -> String {
+    match words {
+        [] => "none".into(),
+        [only] => (*only).into(),
+        [first @ .., last] => format!("{} or {last}", first.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_port_in_use_names_the_address_and_the_way_out() {
+        let refusal = io::Error::from_raw_os_error(98);
+        let error = Error::Socket {
+            action: "listen on",
+            address: "udp 127.0.0.1:9763".into(),
+            kind: io::ErrorKind::AddrInUse,
+            reason: reason(&refusal),
+        };
+        assert!(error.to_string().starts_with("cannot listen on udp 127.0.0.1:9763: "));
+        assert!(!error.to_string().contains("os error"));
+        assert_eq!(
+            error.help().as_deref(),
+            Some("another program listens on 127.0.0.1:9763: stop it or choose another port")
+        );
+    }
+
+    #[test]
+    fn an_address_given_as_a_path_is_offered_as_a_url() {
+        let error = Error::UnknownFormat {
+            path: "192.168.1.5:9763".into(),
+            known: &[".mvnx"],
+        };
+        assert_eq!(
+            error.help().as_deref(),
+            Some("for a network address write mxtp://192.168.1.5:9763")
+        );
+    }
+}

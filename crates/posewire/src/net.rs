@@ -1,0 +1,32 @@
+//! Sockets: datagrams in with the kernel's receive time, datagrams out, TCP both ways.
+//!
+//! ```
+//! use posewire::endpoint::{Host, UdpAddress};
+//! use posewire::net::{UdpReceiver, UdpSender};
+//! use std::time::Duration;
+//!
+//! let loopback = Host::Address([127, 0, 0, 1].into());
+//! let mut receiver = UdpReceiver::bind(&UdpAddress::new(loopback.clone(), 0))?;
+//! let port = receiver.local_address().port();
+//! let mut sender = UdpSender::open(&UdpAddress::new(loopback, port))?;
+//!
+//! sender.send(b"MXTP02")?;
+//! let count = receiver.receive(Duration::from_secs(5), |received| {
+//!     assert_eq!(received.bytes, b"MXTP02");
+//! })?;
+//! assert_eq!(count, 1);
+//! # Ok::<(), posewire::Error>(())
+//! ```
+
+mod backoff;
+mod interface;
+mod resolve;
+mod tcp;
+mod udp_receive;
+mod udp_send;
+
+pub use backoff::Backoff;
+pub use resolve::resolve;
+pub use tcp::{TcpConnection, TcpIncoming, connect, listen};
+pub use udp_receive::{Received, UdpReceiver};
+pub use udp_send::{SendCounts, UdpSender};

@@ -1,0 +1,273 @@
+//! TCP both ways, with a limit on how long a peer may stall.
+
+use std::io::{self, Read, Write};
+use std::net::{Shutdown, SocketAddr, TcpListener, TcpStream};
+use std::time::{Duration, Instant};
+
+use socket2::{SockRef, TcpKeepalive};
+
+use super::resolve::resolve;
+use crate::endpoint::TcpAddress;
+use crate::error::{Error, Result};
+use crate::stop::Stop;
+
+/// Listens for connections on the address.
+///
+/// # Errors
+/// [`Error::Resolve`], and [`Error::Socket`] when the system refuses, as when the port is in use.
+pub fn listen(address: &TcpAddress) -> Result<TcpIncoming> {
+    let addresses = resolve(&address.host, address.port)?;
+    let place = || format!("tcp {}:{}", address.host, address.port);
+    let refused = |error: io::Error| Error::socket("listen on", place(), &error);
+    let listener = TcpListener::bind(addresses.as_slice()).map_err(refused)?;
+    listener.set_nonblocking(true).map_err(refused)?;
+    Ok(TcpIncoming {
+        local: listener.local_addr().map_err(refused)?,
+        listener,
+    })
+}
+
+/// Connects to the address, trying each that a host name has for at most `timeout`.
+///
+/// # Errors
+/// [`Error::Resolve`], and [`Error::Socket`] when none answers; it is the last one's failure.
+pub fn connect(address: &TcpAddress, timeout: Duration) -> Result<TcpConnection> {
+    let mut failure = io::Error::from(io::ErrorKind::AddrNotAvailable);
+    let timeout = timeout.max(Duration::from_millis(1));
+    for target in resolve(&address.host, address.port)? {
+        match TcpStream::connect_timeout(&target, timeout).and_then(|stream| TcpConnection::over(stream, target)) {
+            Ok(connection) => return Ok(connection),
+            Err(error) => failure = error,
+        }
+    }
+    let place = format!("tcp {}:{}", address.host, address.port);
+    Err(Error::socket("connect to", place, &failure))
+}
+
+/// A listening TCP socket.
+#[derive(Debug)]
+pub struct TcpIncoming {
+    listener: TcpListener,
+    local: SocketAddr,
+}
+
+impl TcpIncoming {
+    /// Waits at most `timeout` for a connection; `None` when none came or `stop` was set.
+    ///
+    /// # Errors
+    /// [`Error::Socket`] when the system refuses, as when too many files are open.
+    pub fn accept(&self, timeout: Duration, stop: &Stop) -> Result<Option<TcpConnection>> {
+        let deadline = Instant::now().checked_add(timeout);
+        loop {
+            let accepted = self.listener.accept();
+            match accepted.and_then(|(stream, peer)| TcpConnection::over(stream, peer)) {
+                Ok(connection) => return Ok(Some(connection)),
+                Err(error) if is_passing(&error) => {}
+                Err(error) => {
+                    let place = format!("tcp {}", self.local);
+                    return Err(Error::socket("accept a connection on", place, &error));
+                }
+            }
+            let left = deadline.map_or(timeout, |end| end.saturating_duration_since(Instant::now()));
+            if left.is_zero() || stop.wait(left.min(ACCEPT_INTERVAL)) {
+                return Ok(None);
+            }
+        }
+    }
+
+    /// The address that is listened on, its port the real one.
+    pub fn local_address(&self) -> SocketAddr {
+        self.local
+    }
+}
+
+/// An open TCP connection, without delay for small writes and with keep-alive.
+#[derive(Debug)]
+pub struct TcpConnection {
+    stream: TcpStream,
+    peer: SocketAddr,
+    timeout: Option<Duration>,
+}
+
+impl TcpConnection {
+    /// Waits at most `timeout` for bytes. Gives how many came, 0 when the peer ended the stream,
+    /// and `None` when nothing came in time.
+    ///
+    /// # Errors
+    /// [`Error::Socket`] when the connection broke.
+    pub fn read(&mut self, buffer: &mut [u8], timeout: Duration) -> Result<Option<usize>> {
+        use io::ErrorKind::{Interrupted, TimedOut, WouldBlock};
+        let timeout = timeout.max(Duration::from_millis(1));
+        if self.timeout != Some(timeout) {
+            let outcome = self.stream.set_read_timeout(Some(timeout));
+            outcome.map_err(|error| self.broken("read from", &error))?;
+            self.timeout = Some(timeout);
+        }
+        match self.stream.read(buffer) {
+            Ok(count) => Ok(Some(count)),
+            Err(error) if matches!(error.kind(), Interrupted | TimedOut | WouldBlock) => Ok(None),
+            Err(error) => Err(self.broken("read from", &error)),
+        }
+    }
+
+    /// Writes all of the bytes within `limit`.
+    ///
+    /// # Errors
+    /// [`Error::Stalled`] when the peer did not take them in time, [`Error::Socket`] when the
+    /// connection broke. Either way a part may be written, so the connection is of no more use.
+    pub fn write(&mut self, bytes: &[u8], limit: Duration) -> Result<()> {
+        use io::ErrorKind::{Interrupted, TimedOut, WouldBlock};
+        let start = Instant::now();
+        let mut written = 0;
+        while let Some(rest) = bytes.get(written..).filter(|rest| !rest.is_empty()) {
+            let left = limit.saturating_sub(start.elapsed());
+            if left.is_zero() && written > 0 {
+                return Err(self.stalled(written, bytes.len(), limit));
+            }
+            let outcome = self.stream.set_write_timeout(Some(left.max(Duration::from_millis(1))));
+            match outcome.and_then(|()| self.stream.write(rest)) {
+                Ok(0) => return Err(self.broken("write to", &io::ErrorKind::WriteZero.into())),
+                Ok(count) => written += count,
+                Err(error) if error.kind() == Interrupted => {}
+                Err(error) if matches!(error.kind(), TimedOut | WouldBlock) => {
+                    return Err(self.stalled(written, bytes.len(), limit));
+                }
+                Err(error) => return Err(self.broken("write to", &error)),
+            }
+        }
+        Ok(())
+    }
+
+    /// Tells the peer that nothing more will be written. What was written still arrives.
+    ///
+    /// # Errors
+    /// [`Error::Socket`] when the connection broke before.
+    pub fn finish(&mut self) -> Result<()> {
+        let outcome = self.stream.shutdown(Shutdown::Write);
+        outcome.map_err(|error| self.broken("end", &error))
+    }
+
+    /// The other side's address.
+    pub fn peer(&self) -> SocketAddr {
+        self.peer
+    }
+
+    fn over(stream: TcpStream, peer: SocketAddr) -> io::Result<Self> {
+        // Some systems hand the listener's mode on to what it accepts.
+        stream.set_nonblocking(false)?;
+        stream.set_nodelay(true)?;
+        let keep_alive = TcpKeepalive::new().with_time(KEEP_ALIVE);
+        SockRef::from(&stream).set_tcp_keepalive(&keep_alive)?;
+        Ok(Self {
+            stream,
+            peer,
+            timeout: None,
+        })
+    }
+
+    fn broken(&self, action: &'static str, error: &io::Error) -> Error {
+        Error::socket(action, format!("tcp {}", self.peer), error)
+    }
+
+    fn stalled(&self, written: usize, length: usize, limit: Duration) -> Error {
+        Error::Stalled {
+            peer: format!("tcp {}", self.peer),
+            written,
+            length,
+            limit,
+        }
+    }
+}
+
+/// Nobody there yet, or a caller who hung up before the answer.
+fn is_passing(error: &io::Error) -> bool {
+    use io::ErrorKind::{ConnectionAborted, ConnectionReset, Interrupted, WouldBlock};
+    matches!(
+        error.kind(),
+        ConnectionAborted | ConnectionReset | Interrupted | WouldBlock
+    )
+}
+
+const ACCEPT_INTERVAL: Duration = Duration::from_millis(20);
+const KEEP_ALIVE: Duration = Duration::from_secs(10);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::endpoint::Host;
+
+    const SOON: Duration = Duration::from_secs(5);
+
+    fn loopback(port: u16) -> TcpAddress {
+        TcpAddress::new(Host::Address([127, 0, 0, 1].into()), port)
+    }
+
+    fn pair() -> (TcpConnection, TcpConnection) {
+        let incoming = listen(&loopback(0)).unwrap();
+        let caller = connect(&loopback(incoming.local_address().port()), SOON).unwrap();
+        let callee = incoming.accept(SOON, &Stop::new()).unwrap().unwrap();
+        (caller, callee)
+    }
+
+    #[test]
+    fn bytes_go_both_ways_until_the_end() {
+        let (mut caller, mut callee) = pair();
+        let mut buffer = [0; 64];
+        caller.write(b"MXTP", SOON).unwrap();
+        assert_eq!(callee.read(&mut buffer, SOON), Ok(Some(4)));
+        assert_eq!(caller.read(&mut buffer, Duration::from_millis(1)), Ok(None));
+        callee.write(b"ok", SOON).unwrap();
+        assert_eq!(caller.read(&mut buffer, SOON), Ok(Some(2)));
+        caller.finish().unwrap();
+        assert_eq!(callee.read(&mut buffer, SOON), Ok(Some(0)));
+    }
+
+    #[test]
+    fn a_peer_that_reads_nothing_is_given_up_on() {
+        let (mut caller, _callee) = pair();
+        let limit = Duration::from_millis(20);
+        let bytes = vec![0; 64 << 20];
+        let error = caller.write(&bytes, limit).unwrap_err();
+        assert!(matches!(error, Error::Stalled { length, .. } if length == bytes.len()));
+    }
+
+    #[test]
+    fn nobody_listening_is_a_clear_error() {
+        let incoming = listen(&loopback(0)).unwrap();
+        let local = incoming.local_address();
+        drop(incoming);
+        let error = connect(&loopback(local.port()), SOON).unwrap_err();
+        assert!(
+            error
+                .to_string()
+                .starts_with(&format!("cannot connect to tcp {local}: "))
+        );
+        assert!(
+            error
+                .help()
+                .unwrap()
+                .starts_with(&format!("nothing listens on {local}"))
+        );
+    }
+
+    #[test]
+    fn a_port_in_use_is_a_clear_error() {
+        let incoming = listen(&loopback(0)).unwrap();
+        let error = listen(&loopback(incoming.local_address().port())).unwrap_err();
+        assert!(
+            error
+                .help()
+                .unwrap()
+                .starts_with("another program listens on 127.0.0.1:")
+        );
+    }
+
+    #[test]
+    fn waiting_for_a_caller_ends_in_time_or_at_the_stop() {
+        let incoming = listen(&loopback(0)).unwrap();
+        let stop = Stop::new();
+        assert!(incoming.accept(Duration::ZERO, &stop).unwrap().is_none());
+        stop.stop();
+        assert!(incoming.accept(Duration::from_hours(1), &stop).unwrap().is_none());
+    }
+}

@@ -1,0 +1,413 @@
+//! Bounded queues between a source and its sinks: never an unbounded one, never a silent drop.
+//!
+//! The sink picks the [`Policy`]; whatever is dropped is counted. An item is what is kept or
+//! dropped as a whole: to drop whole samples, push the datagrams of a sample as one item.
+//!
+//! ```
+//! use posewire::queue::{Policy, bounded};
+//! use std::time::Duration;
+//!
+//! let (producer, consumer) = bounded(2, Policy::Newest);
+//! for sample in 0..5 {
+//!     producer.push(sample)?;
+//! }
+//! drop(producer);
+//!
+//! let mut taken = Vec::new();
+//! while consumer.drain(&mut taken, Duration::from_secs(1)).is_open() {}
+//! assert_eq!(taken, [3, 4]);
+//! assert_eq!(consumer.dropped(), 3);
+//! # Ok::<(), posewire::queue::Closed>(())
+//! ```
+
+use std::collections::VecDeque;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+/// What happens when an item comes and the queue is full.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Policy {
+    /// The oldest item makes room, and is counted as dropped.
+    Newest,
+    /// The producer waits for room. One that cannot wait uses [`Producer::push_or_drop`].
+    Lossless,
+}
+
+/// The other side has gone: nothing more can be pushed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the queue is closed")]
+pub struct Closed;
+
+/// What a [`Consumer::drain`] found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drained {
+    /// This many items, at least 1, in the order they were pushed.
+    Items(usize),
+    /// Nothing came within the time.
+    Nothing,
+    /// Nothing is left, and nothing more will come.
+    Closed,
+}
+
+impl Drained {
+    /// Whether more can come.
+    pub fn is_open(self) -> bool {
+        self != Self::Closed
+    }
+}
+
+/// A queue of at most `capacity` items, at least 1. It closes when its last producer or its
+/// consumer goes; what was pushed before can still be drained.
+pub fn bounded<T>(capacity: usize, policy: Policy) -> (Producer<T>, Consumer<T>) {
+    let shared = Arc::new(Shared {
+        state: Mutex::new(State {
+            items: VecDeque::new(),
+            dropped: 0,
+            producers: 1,
+            closed: false,
+            consumer_waits: false,
+            producers_waiting: 0,
+        }),
+        arrived: Condvar::new(),
+        drained: Condvar::new(),
+        capacity: capacity.max(1),
+        policy,
+    });
+    let producer = Producer {
+        shared: Arc::clone(&shared),
+    };
+    (producer, Consumer { shared })
+}
+
+/// The end that items are pushed into. Clones push into the same queue.
+#[derive(Debug)]
+pub struct Producer<T> {
+    shared: Arc<Shared<T>>,
+}
+
+/// The end that items are drained from.
+#[derive(Debug)]
+pub struct Consumer<T> {
+    shared: Arc<Shared<T>>,
+}
+
+#[derive(Debug)]
+struct Shared<T> {
+    state: Mutex<State<T>>,
+    arrived: Condvar,
+    drained: Condvar,
+    capacity: usize,
+    policy: Policy,
+}
+
+#[derive(Debug)]
+struct State<T> {
+    items: VecDeque<T>,
+    dropped: u64,
+    producers: usize,
+    closed: bool,
+    consumer_waits: bool,
+    producers_waiting: usize,
+}
+
+impl<T> Producer<T> {
+    /// Adds an item as the queue's policy has it: at the cost of the oldest, or after waiting for
+    /// room.
+    ///
+    /// # Errors
+    /// [`Closed`] when the consumer has gone or the queue was closed, also while waiting.
+    pub fn push(&self, item: T) -> Result<(), Closed> {
+        let mut state = self.shared.room(self.shared.lock())?;
+        // Freed at the end of this function, outside of the lock.
+        let _oldest = self.shared.add(&mut state, item);
+        self.shared.release(state);
+        Ok(())
+    }
+
+    /// Adds all items under one lock, oldest first, as [`push`](Self::push) would one by one. The
+    /// vector is left empty and keeps its memory.
+    ///
+    /// # Errors
+    /// [`Closed`] as for `push`; the items that found no place are gone.
+    pub fn push_all(&self, items: &mut Vec<T>) -> Result<(), Closed> {
+        let mut state = self.shared.lock();
+        for item in items.drain(..) {
+            state = self.shared.room(state)?;
+            self.shared.add(&mut state, item);
+        }
+        self.shared.release(state);
+        Ok(())
+    }
+
+    /// Adds an item without ever waiting: a full `Newest` queue drops its oldest item, a full
+    /// `Lossless` one drops the new item. Gives whether nothing was dropped; the drop is counted.
+    ///
+    /// # Errors
+    /// [`Closed`] when the consumer has gone or the queue was closed.
+    pub fn push_or_drop(&self, item: T) -> Result<bool, Closed> {
+        let mut state = self.shared.lock();
+        if state.closed {
+            return Err(Closed);
+        }
+        let full = state.items.len() >= self.shared.capacity;
+        if full && self.shared.policy == Policy::Lossless {
+            state.dropped += 1;
+            return Ok(false);
+        }
+        let _oldest = self.shared.add(&mut state, item);
+        self.shared.release(state);
+        Ok(!full)
+    }
+
+    /// How many items were dropped so far.
+    pub fn dropped(&self) -> u64 {
+        self.shared.lock().dropped
+    }
+
+    /// Closes the queue for every producer; the consumer still gets what is in it.
+    pub fn close(&self) {
+        self.shared.close();
+    }
+}
+
+impl<T> Consumer<T> {
+    /// Waits at most `timeout` for an item, then moves all that are there to the end of `into`,
+    /// under one lock.
+    pub fn drain(&self, into: &mut Vec<T>, timeout: Duration) -> Drained {
+        let mut state = self.shared.lock();
+        if state.items.is_empty() && !state.closed && !timeout.is_zero() {
+            state.consumer_waits = true;
+            let waiting = |state: &mut State<T>| state.items.is_empty() && !state.closed;
+            let waited = self.shared.arrived.wait_timeout_while(state, timeout, waiting);
+            state = waited.unwrap_or_else(PoisonError::into_inner).0;
+            state.consumer_waits = false;
+        }
+        let count = state.items.len();
+        if count == 0 {
+            return if state.closed {
+                Drained::Closed
+            } else {
+                Drained::Nothing
+            };
+        }
+        into.extend(state.items.drain(..));
+        if state.producers_waiting > 0 {
+            self.shared.drained.notify_all();
+        }
+        Drained::Items(count)
+    }
+
+    /// How many items were dropped so far.
+    pub fn dropped(&self) -> u64 {
+        self.shared.lock().dropped
+    }
+
+    /// How many items wait to be drained.
+    pub fn len(&self) -> usize {
+        self.shared.lock().items.len()
+    }
+
+    /// Whether nothing waits to be drained.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Refuses further items; what is in the queue can still be drained.
+    pub fn close(&self) {
+        self.shared.close();
+    }
+}
+
+impl<T> Shared<T> {
+    fn lock(&self) -> MutexGuard<'_, State<T>> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Waits for room where the policy says so.
+    fn room<'a>(&self, mut state: MutexGuard<'a, State<T>>) -> Result<MutexGuard<'a, State<T>>, Closed> {
+        while self.policy == Policy::Lossless && state.items.len() >= self.capacity && !state.closed {
+            if std::mem::take(&mut state.consumer_waits) {
+                self.arrived.notify_one();
+            }
+            state.producers_waiting += 1;
+            state = self.drained.wait(state).unwrap_or_else(PoisonError::into_inner);
+            state.producers_waiting -= 1;
+        }
+        if state.closed { Err(Closed) } else { Ok(state) }
+    }
+
+    /// Adds an item and gives back the one that had to go for it.
+    fn add(&self, state: &mut State<T>, item: T) -> Option<T> {
+        let full = state.items.len() >= self.capacity;
+        let oldest = if full { state.items.pop_front() } else { None };
+        state.dropped += u64::from(full);
+        state.items.push_back(item);
+        oldest
+    }
+
+    /// Unlocks, and wakes the consumer only if it waits.
+    fn release(&self, mut state: MutexGuard<'_, State<T>>) {
+        let wake = std::mem::take(&mut state.consumer_waits);
+        drop(state);
+        if wake {
+            self.arrived.notify_one();
+        }
+    }
+
+    fn close(&self) {
+        self.lock().closed = true;
+        self.arrived.notify_all();
+        self.drained.notify_all();
+    }
+}
+
+impl<T> Clone for Producer<T> {
+    fn clone(&self) -> Self {
+        self.shared.lock().producers += 1;
+        Self {
+            shared: Arc::clone(&self.shared),
+        }
+    }
+}
+
+impl<T> Drop for Producer<T> {
+    fn drop(&mut self) {
+        let mut state = self.shared.lock();
+        state.producers -= 1;
+        let last = state.producers == 0;
+        drop(state);
+        if last {
+            self.shared.close();
+        }
+    }
+}
+
+impl<T> Drop for Consumer<T> {
+    fn drop(&mut self) {
+        self.shared.close();
+        // Freed outside of the lock.
+        let _left = std::mem::take(&mut self.shared.lock().items);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::thread;
+
+    use super::*;
+
+    const LONG: Duration = Duration::from_mins(1);
+
+    fn drain_all<T>(consumer: &Consumer<T>) -> Vec<T> {
+        let mut taken = Vec::new();
+        while consumer.drain(&mut taken, LONG).is_open() {}
+        taken
+    }
+
+    #[test]
+    fn newest_keeps_the_last_and_counts_the_rest() {
+        let (producer, consumer) = bounded(3, Policy::Newest);
+        producer.push_all(&mut (0..10).collect()).unwrap();
+        assert_eq!(producer.push_or_drop(10), Ok(false));
+        assert_eq!((consumer.len(), producer.dropped()), (3, 8));
+        drop(producer);
+        assert_eq!(drain_all(&consumer), [8, 9, 10]);
+    }
+
+    #[test]
+    fn a_full_lossless_queue_drops_only_what_a_live_producer_brings() {
+        let (producer, consumer) = bounded(2, Policy::Lossless);
+        let kept: Vec<_> = (0..5).map(|n| producer.push_or_drop(n).unwrap()).collect();
+        assert_eq!(kept, [true, true, false, false, false]);
+        assert_eq!(consumer.dropped(), 3);
+        drop(producer);
+        assert_eq!(drain_all(&consumer), [0, 1]);
+    }
+
+    #[test]
+    fn a_group_is_dropped_whole() {
+        let (producer, consumer) = bounded(1, Policy::Newest);
+        producer.push(vec!["pose 1", "joints 1"]).unwrap();
+        producer.push(vec!["pose 2", "joints 2"]).unwrap();
+        drop(producer);
+        assert_eq!(drain_all(&consumer), [["pose 2", "joints 2"]]);
+        assert_eq!(consumer.dropped(), 1);
+    }
+
+    #[test]
+    fn lossless_producers_wait_and_every_item_arrives_in_order() {
+        let (producer, consumer) = bounded(4, Policy::Lossless);
+        let producers: Vec<_> = (0..3u32)
+            .map(|id| (id, producer.clone()))
+            .map(|(id, producer)| {
+                thread::spawn(move || {
+                    for batch in 0..200u32 {
+                        let mut items: Vec<_> = (0..10).map(|n| (id, batch * 10 + n)).collect();
+                        producer.push_all(&mut items).unwrap();
+                    }
+                })
+            })
+            .collect();
+        drop(producer);
+        let taken = drain_all(&consumer);
+        for thread in producers {
+            thread.join().unwrap();
+        }
+        for id in 0..3 {
+            let numbers = taken.iter().filter(|item| item.0 == id).map(|item| item.1);
+            assert!(numbers.eq(0..2000), "producer {id}");
+        }
+        assert_eq!((taken.len(), consumer.dropped()), (6000, 0));
+    }
+
+    #[test]
+    fn newest_loses_nothing_uncounted_between_threads() {
+        let (producer, consumer) = bounded(8, Policy::Newest);
+        let sender = thread::spawn(move || (0..50_000u32).try_for_each(|n| producer.push(n)));
+        let taken = drain_all(&consumer);
+        assert_eq!(sender.join().unwrap(), Ok(()));
+        assert!(taken.is_sorted());
+        assert_eq!(taken.len() as u64 + consumer.dropped(), 50_000);
+        assert_eq!(taken.last(), Some(&49_999));
+    }
+
+    #[test]
+    fn a_waiting_consumer_is_woken_by_an_item() {
+        let (producer, consumer) = bounded(1, Policy::Newest);
+        let waiting = thread::spawn(move || consumer.drain(&mut Vec::new(), LONG));
+        producer.push(1).unwrap();
+        assert_eq!(waiting.join().unwrap(), Drained::Items(1));
+    }
+
+    #[test]
+    fn an_idle_queue_gives_nothing_in_time() {
+        let (_producer, consumer) = bounded::<u8>(1, Policy::Newest);
+        assert_eq!(consumer.drain(&mut Vec::new(), Duration::ZERO), Drained::Nothing);
+        assert_eq!(
+            consumer.drain(&mut Vec::new(), Duration::from_millis(1)),
+            Drained::Nothing
+        );
+        assert!(consumer.is_empty());
+    }
+
+    #[test]
+    fn closing_frees_a_blocked_producer_and_refuses_more() {
+        let (producer, consumer) = bounded(1, Policy::Lossless);
+        producer.push(1).unwrap();
+        let other = producer.clone();
+        let blocked = thread::spawn(move || other.push(2));
+        drop(consumer);
+        assert_eq!(blocked.join().unwrap(), Err(Closed));
+        assert_eq!(producer.push(3), Err(Closed));
+        assert_eq!(producer.push_or_drop(3), Err(Closed));
+    }
+
+    #[test]
+    fn what_was_pushed_before_the_close_is_still_drained() {
+        let (producer, consumer) = bounded(2, Policy::Lossless);
+        producer.push(1).unwrap();
+        producer.close();
+        assert_eq!(drain_all(&consumer), [1]);
+        assert_eq!(consumer.drain(&mut Vec::new(), LONG), Drained::Closed);
+    }
+}
