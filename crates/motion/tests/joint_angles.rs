@@ -1,0 +1,171 @@
+//! Joint angles and the centre of mass against those that MVN wrote into two takes.
+
+use posewire_motion::kinematics::{center_of_mass, ergonomic_angles, joint_angles};
+use posewire_motion::rotation::Sequence;
+use posewire_motion::{DQuat, DVec3, Skeleton};
+use std::path::Path;
+
+/// The largest error that the six decimals of a file's quaternions explain, degrees.
+const LARGEST_ERROR: f64 = 0.003;
+
+#[test]
+fn angles_of_a_version_4_take_are_those_of_the_file() {
+    let Some(take) = Take::read("test_mocap.mvnx") else {
+        return;
+    };
+    let (body, isb) = (take.calibration("tpose"), take.calibration("tpose-isb"));
+    let isb: Vec<_> = body
+        .iter()
+        .zip(&isb)
+        .map(|(body, isb)| body.conjugate() * *isb)
+        .collect();
+    let skeleton = take.skeleton(&isb);
+    assert_eq!(take.check(&skeleton, |_, orientation| orientation), 112);
+    // A live stream has no T-pose frames: the nominal axes serve as well.
+    assert_eq!(
+        take.check(&take.skeleton(&nominal()), |_, orientation| orientation),
+        112
+    );
+}
+
+#[test]
+fn angles_of_a_version_3_take_are_those_of_the_file() {
+    let Some(take) = Take::read("meri-020.mvnx") else {
+        return;
+    };
+    let arms = take.calibration("npose");
+    let skeleton = take.skeleton(&arms);
+    let canonical = |place: usize, orientation: DQuat| orientation * arms[place].conjugate();
+    assert_eq!(take.check(&skeleton, canonical), 4);
+}
+
+#[test]
+fn the_centre_of_mass_is_near_that_of_the_file() {
+    for (name, version) in [("test_mocap.mvnx", 4), ("meri-020.mvnx", 3)] {
+        let Some(take) = Take::read(name) else { return };
+        let skeleton = Skeleton::standard(0, false);
+        let mut largest: f64 = 0.0;
+        for frame in take.frames("normal") {
+            let position = vectors(frame, "position");
+            let mut orientation = quaternions(frame, "orientation");
+            if version == 3 {
+                let arms = take.calibration("npose");
+                orientation = orientation
+                    .iter()
+                    .zip(arms)
+                    .map(|(turn, arm)| *turn * arm.conjugate())
+                    .collect();
+            }
+            let position: Vec<_> = position.into_iter().map(Some).collect();
+            let orientation: Vec<_> = orientation.into_iter().map(Some).collect();
+            let found = center_of_mass(&skeleton, &position, &orientation).unwrap();
+            let expected = DVec3::from_slice(&numbers(frame, "centerOfMass").unwrap()[..3]);
+            largest = largest.max(found.distance(expected));
+        }
+        println!("{name}: centre of mass within {:.1} mm", largest * 1000.0);
+        assert!(largest < 0.03, "{name}: {largest}");
+    }
+}
+
+/// The text of a take, read by searching for its tags.
+struct Take {
+    text: String,
+}
+
+impl Take {
+    fn read(name: &str) -> Option<Self> {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/mvnx");
+        let text = std::fs::read_to_string(folder.join(name)).ok();
+        if text.is_none() {
+            println!("skipped: reference data not here");
+        }
+        Some(Self { text: text? })
+    }
+
+    fn frames<'a>(&'a self, kind: &str) -> impl Iterator<Item = &'a str> {
+        let mark = format!("type=\"{kind}\">");
+        let frames = self.text.split("<frame ").skip(1);
+        frames.filter(move |frame| frame.lines().next().is_some_and(|line| line.contains(&mark)))
+    }
+
+    fn calibration(&self, kind: &str) -> Vec<DQuat> {
+        quaternions(self.frames(kind).next().unwrap(), "orientation")
+    }
+
+    /// The standard skeleton with the joints' names and the calibration of this take.
+    fn skeleton(&self, isb: &[DQuat]) -> Skeleton {
+        let mut skeleton = Skeleton::standard(0, false);
+        for (segment, isb) in skeleton.segments.iter_mut().zip(isb) {
+            segment.isb = *isb;
+        }
+        let names = self.text.split("<joint label=\"").skip(1);
+        for (joint, rest) in skeleton.joints.iter_mut().zip(names) {
+            rest.split('"').next().unwrap().clone_into(&mut joint.name);
+        }
+        skeleton
+    }
+
+    /// Compares every angle of every sample and gives the number of samples.
+    fn check(&self, skeleton: &Skeleton, canonical: impl Fn(usize, DQuat) -> DQuat) -> usize {
+        let mut found = Vec::new();
+        let mut worst = [0.0_f64; 4];
+        for frame in self.frames("normal") {
+            let turns = quaternions(frame, "orientation").into_iter().enumerate();
+            let orientation: Vec<_> = turns.map(|(place, turn)| Some(canonical(place, turn))).collect();
+            for (sequence, joints, ergonomic, slot) in [
+                (Sequence::Zxy, "jointAngle", "jointAngleErgo", 0),
+                (Sequence::Xzy, "jointAngleXZY", "jointAngleErgoXZY", 2),
+            ] {
+                joint_angles(skeleton, &orientation, sequence, &mut found);
+                worst[slot] = worst[slot].max(largest_error(frame, joints, &found));
+                ergonomic_angles(skeleton, &orientation, sequence, &mut found);
+                worst[slot + 1] = worst[slot + 1].max(largest_error(frame, ergonomic, &found));
+            }
+        }
+        println!("largest error in degrees, joints and ergonomic, ZXY and XZY: {worst:.4?}");
+        assert!(worst.iter().all(|&error| error <= LARGEST_ERROR), "{worst:?}");
+        self.frames("normal").count()
+    }
+}
+
+/// How far the angles are from those of an element, degrees; 0 when the frame has no such element.
+fn largest_error(frame: &str, element: &str, found: &[Option<DVec3>]) -> f64 {
+    if numbers(frame, element).is_none() {
+        return 0.0;
+    }
+    let expected = vectors(frame, element);
+    assert!(expected.len() <= found.len());
+    let errors = expected.iter().zip(found).map(|(expected, found)| {
+        let off = found.unwrap().to_array().map(f64::to_degrees);
+        let off = off.into_iter().zip(expected.to_array()).map(|(found, expected)| {
+            let turns = ((found - expected) / 360.0).round();
+            (found - expected - 360.0 * turns).abs()
+        });
+        off.fold(0.0, f64::max)
+    });
+    errors.fold(0.0, f64::max)
+}
+
+fn numbers(frame: &str, element: &str) -> Option<Vec<f64>> {
+    let (_, rest) = frame.split_once(&format!("<{element}>"))?;
+    let (text, _) = rest.split_once('<')?;
+    Some(text.split_whitespace().map(|number| number.parse().unwrap()).collect())
+}
+
+fn vectors(frame: &str, element: &str) -> Vec<DVec3> {
+    let numbers = numbers(frame, element).unwrap();
+    numbers.chunks_exact(3).map(DVec3::from_slice).collect()
+}
+
+fn quaternions(frame: &str, element: &str) -> Vec<DQuat> {
+    let numbers = numbers(frame, element).unwrap();
+    let turns = numbers.chunks_exact(4);
+    turns
+        .map(|q| DQuat::from_xyzw(q[1], q[2], q[3], q[0]).normalize())
+        .collect()
+}
+
+fn nominal() -> Vec<DQuat> {
+    let segments = Skeleton::standard(0, false).segments;
+    segments.iter().map(|segment| segment.isb).collect()
+}
