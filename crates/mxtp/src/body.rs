@@ -271,15 +271,16 @@ const fn item_count_quirk(stated: usize) -> Quirk {
     }
 }
 
-/// Checks the numbering of segments, and their count against the header's.
+/// Checks the numbering of segments, and their count against the header's. Fewer segments than the
+/// header counts are regular: what does not exist is left out (MV0305 2.5.1).
 #[inline]
 fn segment_quirks<T>(header: &Header, items: &[T], id: fn(&T) -> SegmentId, quirks: &mut Quirks) {
     numbering_quirks(header, items, id, quirks);
     let counts = header.segment_counts();
-    if header.counter == DatagramCounter::SINGLE && counts.body != 0 {
-        quirks.insert_if(counts.total() != items.len(), Quirk::SegmentCounts);
-    } else if counts.body == 0 {
+    if counts.body == 0 {
         quirks.insert_if(header.revision() == Revision::N, Quirk::SegmentCountsZero);
+    } else {
+        quirks.insert_if(items.len() > counts.total(), Quirk::SegmentCounts);
     }
 }
 
@@ -289,7 +290,7 @@ fn numbering_quirks<T>(header: &Header, items: &[T], id: fn(&T) -> SegmentId, qu
     let unusual = if header.counter == DatagramCounter::SINGLE {
         numbering_quirk(&ids, header.segment_counts())
     } else {
-        part_numbering_quirk(&ids)
+        part_numbering_quirk(&ids, header.segment_counts())
     };
     if let Some(quirk) = unusual {
         quirks.insert(quirk);

@@ -162,9 +162,10 @@ impl SegmentCounts {
 }
 
 /// What is unusual about the segment IDs of a whole sample, in the order they came; `None` when they
-/// are 1, 2, 3 and so on, as they should be.
+/// are 1, 2, 3 and so on, as they should be, or ascend with segments left out (MV0305 2.5.1).
 ///
-/// With any of the four answers a segment is known by its position in the sample only.
+/// With any of the four answers a segment is known by its position in the sample only. `counts` are
+/// the header's, all 0 in Rev J.
 #[inline]
 pub fn numbering_quirk<I>(ids: &I, counts: SegmentCounts) -> Option<Quirk>
 where
@@ -173,20 +174,22 @@ where
     if follows(ids.clone(), |position| position + 1) {
         return None;
     }
-    Some(unusual_numbering(ids, counts))
+    unusual_numbering(ids, counts)
 }
 
 /// Like [`numbering_quirk`] for one part of a split sample, whose first ID is not known.
 #[inline]
-pub fn part_numbering_quirk<I>(ids: &I) -> Option<Quirk>
+pub fn part_numbering_quirk<I>(ids: &I, counts: SegmentCounts) -> Option<Quirk>
 where
     I: ExactSizeIterator<Item = SegmentId> + Clone,
 {
-    let first = ids.clone().next()?.0;
-    if !follows(ids.clone(), |position| first.wrapping_add(position)) {
-        return Some(Quirk::SegmentIds);
+    if ascends(ids.clone(), counts) {
+        None
+    } else if follows(ids.clone(), |position| position) {
+        Some(Quirk::SegmentIdsFromZero)
+    } else {
+        Some(Quirk::SegmentIds)
     }
-    (first == 0).then_some(Quirk::SegmentIdsFromZero)
 }
 
 /// The segments that carry a motion tracker, in the order of the wire (type 23).
@@ -254,8 +257,21 @@ fn follows(ids: impl Iterator<Item = SegmentId>, expected: impl Fn(u32) -> u32) 
     ids.zip(0..).all(|(id, position)| id.0 == expected(position))
 }
 
+/// Whether IDs that a character can have come in their order, with some left out perhaps.
+#[inline]
+fn ascends(ids: impl Iterator<Item = SegmentId>, counts: SegmentCounts) -> bool {
+    let mut before = SegmentId(0);
+    for id in ids {
+        if id <= before {
+            return false;
+        }
+        before = id;
+    }
+    before <= counts.last_id()
+}
+
 #[cold]
-fn unusual_numbering<I>(ids: &I, counts: SegmentCounts) -> Quirk
+fn unusual_numbering<I>(ids: &I, counts: SegmentCounts) -> Option<Quirk>
 where
     I: ExactSizeIterator<Item = SegmentId> + Clone,
 {
@@ -271,14 +287,19 @@ where
         }
     };
     let hand = u32::from(HAND_SEGMENTS);
-    if is(&|p| p) {
-        Quirk::SegmentIdsFromZero
+    let known = counts.body > 0;
+    if known && ascends(ids.clone(), counts) {
+        None
+    } else if is(&|p| p) {
+        Some(Quirk::SegmentIdsFromZero)
     } else if is(&late_props) || is(&late_props_only) {
-        Quirk::PropIdsFrom25
+        Some(Quirk::PropIdsFrom25)
     } else if (0..2).any(|base| is(&restart(base, hand)) || is(&restart(base, 2 * hand))) {
-        Quirk::FingerIdsRestart
+        Some(Quirk::FingerIdsRestart)
+    } else if !known && ascends(ids.clone(), counts) {
+        None
     } else {
-        Quirk::SegmentIds
+        Some(Quirk::SegmentIds)
     }
 }
 
@@ -371,17 +392,29 @@ mod tests {
         let ids: Vec<u32> = (1..=23).collect();
         assert_eq!(quirk_of(&ids, SegmentCounts::BODY), None);
         let part = (12..=23).map(SegmentId).collect::<Vec<_>>();
-        assert_eq!(part_numbering_quirk(&part.into_iter()), None);
+        assert_eq!(part_numbering_quirk(&part.into_iter(), SegmentCounts::BODY), None);
+    }
+
+    #[test]
+    fn segments_left_out_are_no_quirk() {
+        let ids = [1, 2, 4, 23, 25];
+        assert_eq!(quirk_of(&ids, SegmentCounts::new(2, false)), None);
+        assert_eq!(quirk_of(&ids, SegmentCounts::default()), None);
+        let backwards = [1, 4, 2];
+        let unknown = Some(Quirk::SegmentIds);
+        assert_eq!(quirk_of(&ids, SegmentCounts::BODY), unknown);
+        assert_eq!(quirk_of(&backwards, SegmentCounts::BODY), unknown);
+        assert_eq!(quirk_of(&[68], SegmentCounts::default()), unknown);
     }
 
     #[test]
     fn unusual_numbers_have_names() {
         let zero: Vec<u32> = (0..23).collect();
-        let props: Vec<u32> = (1..=23).chain([25, 26]).collect();
+        let props: Vec<u32> = (1..=23).chain([25]).collect();
         let fingers: Vec<u32> = (1..=24).chain(0..20).chain(0..20).collect();
         let mixed: Vec<u32> = (1..=22).chain([90]).collect();
         let body = SegmentCounts::BODY;
-        let with_props = SegmentCounts::new(2, false);
+        let with_props = SegmentCounts::new(1, false);
         assert_eq!(quirk_of(&zero, body), Some(Quirk::SegmentIdsFromZero));
         assert_eq!(quirk_of(&props, with_props), Some(Quirk::PropIdsFrom25));
         let restart = Some(Quirk::FingerIdsRestart);

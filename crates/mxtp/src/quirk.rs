@@ -21,7 +21,7 @@ pub enum Quirk {
     ItemCount,
     /// A Rev N header states no body segments.
     SegmentCountsZero,
-    /// Body, prop and finger counts do not add up to the items of an unsplit pose.
+    /// More segments follow than body, prop and finger counts add up to.
     SegmentCounts,
     /// Segments are numbered from 0 instead of 1.
     SegmentIdsFromZero,
