@@ -34,6 +34,7 @@ mod explain;
 mod framing;
 mod header;
 mod quirk;
+mod sequence;
 
 pub use datagram::Datagram;
 pub use error::Error;
@@ -41,3 +42,4 @@ pub use explain::{Explanation, Field, Value, explain};
 pub use framing::Framer;
 pub use header::{DatagramCounter, Header, MessageType, Revision};
 pub use quirk::{Quirk, Quirks};
+pub use sequence::{Observation, ResetKind, Sequence, Tally};
