@@ -1,1 +1,48 @@
-//! Placeholder.
+//! MVNX, the take format of Xsens MVN: a streaming reader.
+//!
+//! [`Reader`] reads files of version 3 and 4, plain or compressed with gzip, one frame at a time and in constant memory,
+//! and gives them in the canonical convention of [`posewire_motion`]. The crate opens no file: it reads any
+//! [`BufRead`](std::io::BufRead).
+//!
+//! ```
+//! let file = br#"<mvnx version="4">
+//!   <subject label="Ada" frameRate="240" segmentCount="1">
+//!     <segments><segment label="Pelvis" id="1"/></segments>
+//!     <frames segmentCount="1">
+//!       <frame time="0" index="0" type="normal">
+//!         <orientation>1.000000 0.000000 0.000000 0.000000</orientation>
+//!         <position>0.100000 0.200000 0.950000</position>
+//!       </frame>
+//!     </frames>
+//!   </subject>
+//! </mvnx>"#;
+//! let reader = posewire_mvnx::Reader::new(&file[..])?;
+//! assert_eq!(reader.subject().name, "Ada");
+//! for frame in reader {
+//!     let pelvis = frame?.pose(0).expect("both sections are there");
+//!     assert_eq!(pelvis.position.z, 0.95);
+//! }
+//! # Ok::<(), posewire_mvnx::Error>(())
+//! ```
+
+mod calibration;
+mod error;
+mod frame;
+mod head;
+mod header;
+mod input;
+mod number;
+mod reader;
+mod section;
+mod sections;
+mod skeleton;
+mod xml;
+
+pub use calibration::{Calibration, CalibrationKind};
+pub use error::{Error, Place};
+pub use header::{
+    ConnectorDefinition, ErgonomicAngleDefinition, Hands, Header, JointDefinition, PointDefinition, SegmentDefinition,
+    UnknownElement,
+};
+pub use reader::{FrameCounts, Reader, read_take};
+pub use sections::SectionInfo;
