@@ -27,6 +27,7 @@
 
 pub mod body;
 pub mod ids;
+pub mod motion;
 
 mod datagram;
 mod error;
