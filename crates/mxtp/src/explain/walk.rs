@@ -101,10 +101,14 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Gives the last field a note.
+    /// Gives the last field a note, after the one it has.
     pub(super) fn note(&mut self, note: impl Into<Cow<'static, str>>) {
         if let Some(field) = self.fields.last_mut() {
-            field.note = Some(note.into());
+            let note = note.into();
+            field.note = Some(match field.note.take() {
+                Some(before) => format!("{before}; {note}").into(),
+                None => note,
+            });
         }
     }
 
