@@ -16,8 +16,10 @@ pub(crate) struct Xml<R> {
     /// The start tag read last, without its brackets.
     tag: String,
     name_length: usize,
-    /// The text since the start tag read last.
+    /// What [`text`](Self::text) gives.
     text: Vec<u8>,
+    /// Whether the text stands before the tag read last.
+    text_ended: bool,
     /// The names of the open elements, with slashes between.
     path: String,
     /// How long the path was before each open element.
@@ -62,6 +64,7 @@ impl<R: BufRead> Xml<R> {
             tag: String::new(),
             name_length: 0,
             text: Vec::new(),
+            text_ended: false,
             path: String::new(),
             depths: Vec::new(),
             raw: None,
@@ -155,7 +158,7 @@ impl<R: BufRead> Xml<R> {
         skipped.map(|()| raw)
     }
 
-    /// The text since the start tag read last.
+    /// The text since the tag read last, or the text before it when it is an end tag.
     pub(crate) fn text(&self) -> &[u8] {
         &self.text
     }
@@ -202,11 +205,11 @@ impl<R: BufRead> Xml<R> {
                     self.close();
                     Ok(Step::End)
                 }
-                Event::Text(text) => add_text(&mut self.text, text.as_bytes(), self.place),
-                Event::CData(text) => add_text(&mut self.text, text.as_bytes(), self.place),
+                Event::Text(text) => add_text(&mut self.text, &mut self.text_ended, &text, self.place),
+                Event::CData(text) => add_text(&mut self.text, &mut self.text_ended, &text, self.place),
                 Event::GeneralRef(name) => {
                     let character = resolve(&name, self.place)?;
-                    add_text(&mut self.text, character.as_bytes(), self.place)
+                    add_text(&mut self.text, &mut self.text_ended, &character, self.place)
                 }
                 Event::Eof if self.depths.is_empty() => Ok(Step::Eof),
                 Event::Eof => Err(self.truncated()),
@@ -221,6 +224,7 @@ impl<R: BufRead> Xml<R> {
             return Err(self.too_many("elements within each other", MAX_DEPTH));
         }
         self.text.clear();
+        self.text_ended = false;
         self.depths.push(self.path.len());
         if !self.path.is_empty() {
             self.path.push('/');
@@ -230,6 +234,7 @@ impl<R: BufRead> Xml<R> {
     }
 
     fn close(&mut self) {
+        self.text_ended = true;
         if let Some(length) = self.depths.pop() {
             self.path.truncate(length);
         }
@@ -291,7 +296,10 @@ impl Raw {
 }
 
 /// Adds to an element's text, which is bounded as a whole too.
-fn add_text(to: &mut Vec<u8>, text: &[u8], at: Place) -> Result<Step, Error> {
+fn add_text(to: &mut Vec<u8>, ended: &mut bool, text: &str, at: Place) -> Result<Step, Error> {
+    if std::mem::take(ended) {
+        to.clear();
+    }
     if to.len() + text.len() > crate::input::MAX_PIECE {
         return Err(Error::TooMany {
             at,
@@ -299,7 +307,7 @@ fn add_text(to: &mut Vec<u8>, text: &[u8], at: Place) -> Result<Step, Error> {
             limit: crate::input::MAX_PIECE as u64,
         });
     }
-    to.extend_from_slice(text);
+    to.extend_from_slice(text.as_bytes());
     Ok(Step::Text)
 }
 
@@ -351,6 +359,22 @@ mod tests {
         assert_eq!(xml.step(), Ok(Step::Start));
         assert_eq!(xml.leaf().unwrap().0, b"1 < 2 & 3");
         assert_eq!(xml.step(), Ok(Step::Eof));
+    }
+
+    #[test]
+    fn text_between_elements_is_not_that_of_the_element_before() {
+        let mut blank = xml("<a>\n<b>1</b>\n<c/> </a>");
+        blank.child().unwrap();
+        assert_eq!(blank.child(), Ok(true));
+        assert_eq!(blank.leaf().unwrap().0, b"1");
+        assert_eq!(blank.child(), Ok(true));
+        assert_eq!(blank.leaf().unwrap().0, b"");
+        assert_eq!(blank.child(), Ok(false));
+        let mut text = xml("<a><b>1</b> text </a>");
+        text.child().unwrap();
+        text.child().unwrap();
+        text.skip().unwrap();
+        assert!(matches!(text.child(), Err(Error::Unexpected { found, .. }) if found == "text"));
     }
 
     #[test]
