@@ -6,9 +6,9 @@ use std::collections::VecDeque;
 /// Follows the sample counter of one message type of one character (MV0305 2.4.1.2).
 ///
 /// The counter runs at the sampling rate, and a sender may stream less often: then it goes up by a constant *stride*,
-/// which is learnt from the first eight steps and again when eight equal steps in a row differ from it. Losses are
-/// counted in strides. A counter that wraps around goes on; one that goes back, or forward further than the time
-/// that passed explains, is a reset and no loss.
+/// which is learnt from the first eight steps (or more, when they disagree) and again when eight shorter or sixteen
+/// longer equal steps come in a row. Losses are counted in strides. A counter that wraps around goes on; one that goes
+/// back, or forward further than the time that passed explains, is a reset and no loss.
 ///
 /// What is missing depends on the set of samples that came and not on their order: a sample that comes late is no
 /// longer missing.
@@ -187,20 +187,28 @@ impl Sequence {
 
     /// Sets the stride to the most common step of the session so far and counts its losses by it.
     fn learn(&mut self) {
-        self.stride = most_common_step(&self.window).or(self.stride);
+        let (stride, share) = most_common_step(&self.window);
+        self.stride = stride.or(self.stride);
         let missing: u64 = steps(&self.window).map(|step| u64::from(self.missing_in(step))).sum();
         self.tally.missing = self.missing_before + missing;
-        self.settled = self.window.len() > LESSON;
+        let lessons = self.window.len() - 1;
+        self.settled = lessons >= LONG_LESSON || lessons >= LESSON && 4 * share >= 3 * lessons;
     }
 
     fn count_step(&mut self, step: u32) {
-        self.tally.missing += u64::from(self.missing_in(step));
-        if self.stride == Some(step) {
+        let missing = u64::from(self.missing_in(step));
+        self.tally.missing += missing;
+        let stride = self.stride.unwrap_or(step);
+        if step == stride {
             self.other_steps = EqualSteps::default();
-        } else if self.other_steps.extend(step) {
-            let counted = LESSON as u64 * u64::from(self.missing_in(step));
-            self.tally.missing = self.tally.missing.saturating_sub(counted);
+            return;
+        }
+        // Heavy loss makes several double steps in a row, but nothing makes steps too short.
+        let enough = if step < stride { LESSON } else { 2 * LESSON };
+        if self.other_steps.extend(step) == enough {
+            self.tally.missing = self.tally.missing.saturating_sub(enough as u64 * missing);
             self.stride = Some(step);
+            self.other_steps = EqualSteps::default();
         }
     }
 
@@ -244,11 +252,11 @@ struct EqualSteps {
 }
 
 impl EqualSteps {
-    /// Adds a step; true when enough in a row are equal.
-    fn extend(&mut self, step: u32) -> bool {
+    /// Adds a step; says how many in a row are equal.
+    fn extend(&mut self, step: u32) -> usize {
         self.count = if step == self.step { self.count + 1 } else { 1 };
         self.step = step;
-        self.count == LESSON
+        self.count
     }
 }
 
@@ -321,16 +329,20 @@ fn steps(window: &VecDeque<u32>) -> impl Iterator<Item = u32> {
         .map(|(older, newer)| newer.wrapping_sub(*older))
 }
 
-/// The most common step between the few samples of a session that has just begun; of equally common ones the smallest.
-fn most_common_step(window: &VecDeque<u32>) -> Option<u32> {
+/// The most common step between the few samples of a session that has just begun, and how many steps are like it; of
+/// equally common ones the smallest.
+fn most_common_step(window: &VecDeque<u32>) -> (Option<u32>, usize) {
     let count = |step: u32| steps(window).filter(|other| *other == step).count();
-    steps(window).max_by_key(|step| (count(*step), u32::MAX - step))
+    let most = steps(window).max_by_key(|step| (count(*step), u32::MAX - step));
+    (most, most.map_or(0, count))
 }
 
 /// How many samples are remembered.
 const WINDOW: usize = 256;
-/// How many steps teach a stride, and how many old samples in a row a rewind.
+/// How many steps teach a stride, and how many old samples in a row make a rewind.
 const LESSON: usize = 8;
+/// How many steps teach a stride when fewer than three of four are equal.
+const LONG_LESSON: usize = 64;
 /// Strides that may be missing whatever the time says.
 const SHORT_GAP: f64 = 16.0;
 /// Differences from here on are negative ones.

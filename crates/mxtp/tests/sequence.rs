@@ -117,6 +117,8 @@ fn streams() -> impl Strategy<Value = Stream> {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
     #[test]
     fn every_loss_and_double_is_counted_once(stream in streams()) {
         prop_assert_eq!(stream.observed(), stream.expected());
