@@ -1,0 +1,62 @@
+//! A stream that runs takes no memory: frames and buffers are used again.
+
+use posewire_motion::{CenterOfMass, DQuat, DVec3, Frame, Skeleton, Subject, Timecode};
+use posewire_mxtp::motion::{Datagrams, Encoder, EncoderOptions, Filler, MessageTypes};
+use posewire_mxtp::{Datagram, Revision};
+use std::sync::Arc;
+
+fn frame() -> Frame {
+    let mut frame = Frame::new(Arc::new(Subject::new("Ada", Skeleton::standard(2, true))));
+    let vector = Some(DVec3::new(0.1, 0.2, 0.3));
+    let (segments, sensors) = (65, 17);
+    frame.timecode = Some(Timecode::from_milliseconds(1));
+    frame.position = vec![vector; segments];
+    frame.orientation = vec![Some(DQuat::IDENTITY); segments];
+    frame.velocity = vec![vector; segments];
+    frame.acceleration = vec![vector; segments];
+    frame.angular_velocity = vec![vector; segments];
+    frame.angular_acceleration = vec![vector; segments];
+    frame.joint_angles = vec![vector; 22];
+    frame.ergonomic_angles = vec![vector; 6];
+    frame.sensor_orientation = vec![Some(DQuat::IDENTITY); sensors];
+    frame.sensor_free_acceleration = vec![vector; sensors];
+    frame.sensor_acceleration = vec![vector; sensors];
+    frame.sensor_angular_velocity = vec![vector; sensors];
+    frame.sensor_magnetic_field = vec![vector; sensors];
+    frame.center_of_mass = Some(CenterOfMass {
+        position: DVec3::Z,
+        velocity: vector,
+        acceleration: vector,
+    });
+    frame
+}
+
+fn receive(frame: &mut Frame, datagrams: &Datagrams) {
+    let mut filler = Filler::begin(frame);
+    for bytes in datagrams.iter() {
+        let datagram = Datagram::decode(bytes).unwrap();
+        filler.fill(frame, &datagram.header, &datagram.body);
+    }
+}
+
+#[test]
+fn nothing_is_allocated_once_all_types_have_been_sent_and_received() {
+    for revision in [Revision::N, Revision::J] {
+        let options = EncoderOptions {
+            types: MessageTypes::ALL,
+            revision,
+            ..EncoderOptions::default()
+        };
+        let (sent, mut encoder, mut datagrams) = (frame(), Encoder::new(options), Datagrams::new());
+        let mut received = Frame::new(sent.subject.clone());
+        let mut run = || {
+            datagrams.clear();
+            encoder.encode_frame(&sent, &mut datagrams);
+            receive(&mut received, &datagrams);
+        };
+        run();
+        let counts = allocation_counter::measure(|| (0..100).for_each(|_| run()));
+        assert_eq!(counts.count_total, 0);
+        assert_eq!((datagrams.len(), received.markers.len()), (10, 44));
+    }
+}
