@@ -13,8 +13,8 @@
 //! | 24 | Z-up, m, s | centre of mass |
 //! | 25 | `HH:MM:SS.mmm` | timecode |
 //!
-//! A frame's `f64` values keep every `f32` of the wire: decoding and encoding again gives the same bits, except for the
-//! angles of type 01 (the same rotation within 5e-7 rad) and the relative poses of type 05 (within 1e-6).
+//! A frame's `f64` values keep every `f32` of the wire: decoding and encoding again gives the same bits (a NaN stays one),
+//! except for the angles of type 01 (the same rotation within 5e-7 rad) and the relative poses of type 05 (within 2e-6).
 
 mod character;
 mod convert;
