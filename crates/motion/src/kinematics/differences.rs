@@ -32,9 +32,7 @@ use std::time::Duration;
 ///     frame.position = vec![Some(DVec3::new(f64::from(sample) / 60.0, 0.0, 1.0)); 23];
 ///     done.extend(differences.push(frame));
 /// }
-/// while let Some(frame) = differences.finish() {
-///     done.push(frame);
-/// }
+/// done.extend(differences.finish());
 /// assert_eq!(done.len(), 5);
 /// assert!(done.iter().all(|frame| (frame.velocity[0].unwrap() - DVec3::X).length() < 1e-9));
 /// ```
@@ -83,10 +81,10 @@ impl Differences {
         self.ready.pop_front()
     }
 
-    /// Ends the run and gives the oldest sample not given yet. Call it until it gives `None`.
-    pub fn finish(&mut self) -> Option<Frame> {
+    /// Ends the run and gives all samples that are not given yet, up to two of them, in their order.
+    pub fn finish(&mut self) -> impl Iterator<Item = Frame> {
         self.end_run();
-        self.ready.pop_front()
+        self.ready.drain(..)
     }
 
     fn end_run(&mut self) {
@@ -282,7 +280,7 @@ mod tests {
     fn filled(frames: Vec<Frame>) -> Vec<Frame> {
         let mut differences = Differences::new(RATE).longest_gap(10);
         let mut done: Vec<_> = frames.into_iter().filter_map(|frame| differences.push(frame)).collect();
-        done.extend(std::iter::from_fn(|| differences.finish()));
+        done.extend(differences.finish());
         done
     }
 
@@ -369,7 +367,7 @@ mod tests {
         for frame in take(&[0, 1], |_| (DVec3::X, DQuat::IDENTITY)) {
             assert!(differences.push(frame).is_none_or(|done| done.velocity.is_empty()));
         }
-        assert!(differences.finish().unwrap().velocity.is_empty());
+        assert!(differences.finish().all(|done| done.velocity.is_empty()));
     }
 
     #[test]
@@ -382,6 +380,11 @@ mod tests {
         }
         let expected: Vec<_> = [None, None].into_iter().chain(numbers.map(Some)).collect();
         assert_eq!(out, expected[..numbers.len()]);
+        assert_eq!(
+            differences.finish().map(|done| done.sample).collect::<Vec<_>>(),
+            [90, 91]
+        );
+        assert_eq!(differences.finish().count(), 0);
     }
 
     #[test]
