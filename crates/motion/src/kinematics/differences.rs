@@ -123,35 +123,32 @@ impl Differences {
         if self.window.len() < 2 {
             return;
         }
-        let at = |place: usize| self.window.get(place);
         let steps = Steps {
             seconds: [self.seconds_after(0), self.seconds_after(1)],
             place,
         };
-        let positions = |entry: usize| -> [Option<DVec3>; WINDOW] {
-            [0, 1, 2].map(|place| at(place).and_then(|sample| sample.position[entry]))
-        };
-        let orientations = |entry: usize| -> [Option<DQuat>; WINDOW] {
-            [0, 1, 2].map(|place| at(place).and_then(|sample| sample.orientation[entry]))
-        };
         fill_sections(
             frame.position.len(),
-            |entry| steps.linear(positions(entry)),
+            |entry| steps.linear(self.each(|sample| sample.position[entry])),
             &mut frame.velocity,
             &mut frame.acceleration,
         );
         fill_sections(
             frame.orientation.len(),
-            |entry| steps.angular(orientations(entry)),
+            |entry| steps.angular(self.each(|sample| sample.orientation[entry])),
             &mut frame.angular_velocity,
             &mut frame.angular_acceleration,
         );
         if let Some(center) = &mut frame.center_of_mass {
-            let centers = [0, 1, 2].map(|place| at(place).and_then(|sample| sample.center));
-            let motion = steps.linear(centers);
+            let motion = steps.linear(self.each(|sample| sample.center));
             center.velocity = center.velocity.or(motion.velocity);
             center.acceleration = center.acceleration.or(motion.acceleration);
         }
+    }
+
+    /// One thing of each sample in the window.
+    fn each<T>(&self, thing: impl Fn(&Sample) -> Option<T>) -> [Option<T>; WINDOW] {
+        [0, 1, 2].map(|place| self.window.get(place).and_then(&thing))
     }
 
     /// The time from the sample at `place` of the window to the next; zero when there is none.
