@@ -1,12 +1,12 @@
 //! The whole body at an instant.
 
 use super::foot::{Foot, FootPose, FootShape, contacts};
-use super::hand;
+use super::hand::Grip;
 use super::leg::reach;
 use super::style::{STRIDES_PER_LAP, Style};
 use posewire_motion::kinematics::segment_positions;
 use posewire_motion::standard::BODY_SEGMENTS;
-use posewire_motion::{DQuat, DVec3, Segment, SegmentKind, Skeleton};
+use posewire_motion::{DQuat, DVec3, Skeleton};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// A person's body, ready to be posed at any time.
@@ -17,6 +17,8 @@ pub(super) struct Body {
     left: Leg,
     /// The sideways lean into the turn, rad.
     bank: f64,
+    /// For each prop and finger segment: what it hangs on, and how.
+    held: Vec<(Option<usize>, Grip)>,
 }
 
 /// A leg's sizes, m, and its foot.
@@ -45,6 +47,12 @@ impl Body {
             right: Leg::new(&style, skeleton, RIGHT_LEG, -1.0),
             left: Leg::new(&style, skeleton, LEFT_LEG, 1.0),
             bank: style.path.direction * BANK * (speed * speed / (GRAVITY * style.path.radius)).atan(),
+            held: skeleton
+                .segments
+                .iter()
+                .skip(BODY_SEGMENTS.len())
+                .map(|held| (held.parent, Grip::new(held)))
+                .collect(),
         }
     }
 
@@ -56,9 +64,9 @@ impl Body {
         let turns = self.turns(strides, pelvis);
         out.orientation.clear();
         out.orientation.extend(turns.map(|turn| Some(frame.orientation * turn)));
-        for segment in &skeleton.segments[BODY_SEGMENTS.len()..] {
-            let turn = held(segment, &out.orientation, seconds);
-            out.orientation.push(turn);
+        for (parent, grip) in &self.held {
+            let hand = parent.and_then(|parent| out.orientation.get(parent).copied().flatten());
+            out.orientation.push(hand.map(|hand| hand * grip.at(seconds)));
         }
         segment_positions(
             skeleton,
@@ -193,16 +201,6 @@ impl Leg {
         let hip = pelvis.position + turn * self.hip;
         let [thigh, shank] = reach(hip, ankle, self.thigh, self.shank, forward);
         [thigh, shank, foot, toe]
-    }
-}
-
-/// The orientation of a prop or finger: `None` when it hangs on nothing.
-fn held(segment: &Segment, orientation: &[Option<DQuat>], seconds: f64) -> Option<DQuat> {
-    let parent = orientation.get(segment.parent?).copied().flatten()?;
-    match segment.kind {
-        SegmentKind::LeftFinger => Some(parent * hand::curl(&segment.name, 1.0, seconds)),
-        SegmentKind::RightFinger => Some(parent * hand::curl(&segment.name, -1.0, seconds)),
-        SegmentKind::Prop | SegmentKind::Body => Some(parent),
     }
 }
 
