@@ -149,10 +149,8 @@ pub enum Error {
         found: String,
     },
     /// A joint, sensor or angle that names a segment which the file does not have.
-    #[error("{at}: {what}: expected the label of a segment, found {found:?}")]
+    #[error("{what} before the frames: expected the label of a segment, found {found:?}")]
     UnknownSegment {
-        /// Where the name stands.
-        at: Place,
         /// The element.
         what: &'static str,
         /// The name; long text is cut.

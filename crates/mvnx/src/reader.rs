@@ -73,9 +73,8 @@ impl<R: BufRead> Reader<R> {
         let mut header = read_head(&mut xml)?;
         let layout = Layout::new(&header);
         let (mut calibration, mut counts) = (Vec::new(), FrameCounts::default());
-        let place = xml.place();
         let state = read_calibrations(&mut xml, &mut header, &layout, &mut calibration, &mut counts)?;
-        let subject = Arc::new(build_subject(&header, &calibration, place)?);
+        let subject = Arc::new(build_subject(&header, &calibration)?);
         let frames = FrameReader::new(layout, corrections(&header, &subject));
         let mut reader = Self {
             xml,

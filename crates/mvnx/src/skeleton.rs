@@ -1,28 +1,28 @@
 //! The canonical skeleton of a subject, from what the file says before its first normal frame.
 
+use crate::Error;
 use crate::calibration::{Calibration, CalibrationKind};
 use crate::error::clip;
 use crate::header::{ConnectorDefinition, Header, JointDefinition, PointDefinition, SegmentDefinition};
-use crate::{Error, Place};
 use posewire_motion::{
     Connector, DQuat, DVec3, ErgonomicAngle, Joint, Point, Segment, SegmentKind, Skeleton, Subject, standard,
 };
 use std::collections::HashMap;
 
-/// Builds the subject. `at` is where the frames begin, for errors.
-pub(crate) fn build_subject(header: &Header, calibration: &[Calibration], at: Place) -> Result<Subject, Error> {
+/// Builds the subject.
+pub(crate) fn build_subject(header: &Header, calibration: &[Calibration]) -> Result<Subject, Error> {
     let nominal = Nominal::new();
     let places = Places::new(header);
     let mut segments = segments(header, &nominal);
     apply_calibration(&mut segments, header.version, calibration);
-    let joints = joints(header, &places, at)?;
+    let joints = joints(header, &places)?;
     hang(&mut segments, &joints)?;
     hang_nominally(&mut segments, &nominal);
     let skeleton = Skeleton {
         segments,
         joints,
-        ergonomic_angles: ergonomic_angles(header, &places, at)?,
-        sensors: sensors(header, &places, at)?,
+        ergonomic_angles: ergonomic_angles(header, &places)?,
+        sensors: sensors(header, &places)?,
         contacts: header.contacts.clone(),
     };
     Ok(Subject {
@@ -76,18 +76,17 @@ impl<'a> Places<'a> {
         places
     }
 
-    fn segment(&self, label: &str, what: &'static str, at: Place) -> Result<usize, Error> {
+    fn segment(&self, label: &str, what: &'static str) -> Result<usize, Error> {
         let place = self.segments.get(label).copied();
         place.ok_or_else(|| Error::UnknownSegment {
-            at,
             what,
             found: clip(label),
         })
     }
 
     /// Point 0, which no segment has, stands for a point that the segment does not define.
-    fn connector(&self, end: &ConnectorDefinition, what: &'static str, at: Place) -> Result<Connector, Error> {
-        let segment = self.segment(&end.segment, what, at)?;
+    fn connector(&self, end: &ConnectorDefinition, what: &'static str) -> Result<Connector, Error> {
+        let segment = self.segment(&end.segment, what)?;
         let point = self.points.get(&(segment, end.point.as_str())).copied();
         Ok(Connector {
             segment,
@@ -183,13 +182,13 @@ fn unit(q: DQuat) -> Option<DQuat> {
     Some(if turns { q / length } else { DQuat::IDENTITY })
 }
 
-fn joints(header: &Header, places: &Places<'_>, at: Place) -> Result<Vec<Joint>, Error> {
+fn joints(header: &Header, places: &Places<'_>) -> Result<Vec<Joint>, Error> {
     let fingers = header.finger_joints.left.iter().chain(&header.finger_joints.right);
     let joint = |definition: &JointDefinition| {
         Ok(Joint {
             name: definition.label.clone(),
-            parent: places.connector(&definition.parent, "connector1", at)?,
-            child: places.connector(&definition.child, "connector2", at)?,
+            parent: places.connector(&definition.parent, "connector1")?,
+            child: places.connector(&definition.child, "connector2")?,
         })
     };
     header.joints.iter().chain(fingers).map(joint).collect()
@@ -239,24 +238,24 @@ fn hangs_on(segments: &[Segment], segment: usize, ancestor: usize) -> bool {
     above.any(|place| place == ancestor)
 }
 
-fn ergonomic_angles(header: &Header, places: &Places<'_>, at: Place) -> Result<Vec<ErgonomicAngle>, Error> {
+fn ergonomic_angles(header: &Header, places: &Places<'_>) -> Result<Vec<ErgonomicAngle>, Error> {
     let angles = header.ergonomic_angles.iter();
     angles
         .map(|definition| {
             Ok(ErgonomicAngle {
                 name: definition.label.clone(),
                 parent: places.segments.get(definition.parent.as_str()).copied(),
-                child: places.segment(&definition.child, "ergonomicJointAngle childSegment", at)?,
+                child: places.segment(&definition.child, "ergonomicJointAngle childSegment")?,
             })
         })
         .collect()
 }
 
-fn sensors(header: &Header, places: &Places<'_>, at: Place) -> Result<Vec<usize>, Error> {
+fn sensors(header: &Header, places: &Places<'_>) -> Result<Vec<usize>, Error> {
     header
         .sensors
         .iter()
-        .map(|label| places.segment(label, "sensor", at))
+        .map(|label| places.segment(label, "sensor"))
         .collect()
 }
 

