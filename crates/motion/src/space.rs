@@ -154,34 +154,18 @@ mod tests {
 
     const ALL: [Space; 4] = [Space::CANONICAL, Space::UNITY, Space::UNREAL, Space::MOTION_BUILDER];
 
-    fn components(v: DVec3) -> [f64; 3] {
-        v.to_array()
-    }
-
     #[test]
     fn the_engines_axes_are_those_of_the_vendor() {
         let (p, q) = (DVec3::new(1.0, 2.0, 3.0), DQuat::from_xyzw(0.1, 0.2, 0.3, 0.9));
-        assert_eq!(components(Space::UNITY.position_from_canonical(p)), [-2.0, 3.0, 1.0]);
-        assert_eq!(
-            Space::UNITY.orientation_from_canonical(q).to_array(),
-            [0.2, -0.3, -0.1, 0.9]
-        );
-        assert_eq!(
-            components(Space::UNREAL.position_from_canonical(p)),
-            [100.0, -200.0, 300.0]
-        );
-        assert_eq!(
-            Space::UNREAL.orientation_from_canonical(q).to_array(),
-            [-0.1, 0.2, -0.3, 0.9]
-        );
-        assert_eq!(
-            components(Space::MOTION_BUILDER.position_from_canonical(p)),
-            [200.0, 300.0, 100.0]
-        );
-        assert_eq!(
-            Space::MOTION_BUILDER.orientation_from_canonical(q).to_array(),
-            [0.2, 0.3, 0.1, 0.9]
-        );
+        let cases = [
+            (Space::UNITY, [-2.0, 3.0, 1.0], [0.2, -0.3, -0.1, 0.9]),
+            (Space::UNREAL, [100.0, -200.0, 300.0], [-0.1, 0.2, -0.3, 0.9]),
+            (Space::MOTION_BUILDER, [200.0, 300.0, 100.0], [0.2, 0.3, 0.1, 0.9]),
+        ];
+        for (space, position, orientation) in cases {
+            assert_eq!(space.position_from_canonical(p), DVec3::from_array(position));
+            assert_eq!(space.orientation_from_canonical(q), DQuat::from_array(orientation));
+        }
     }
 
     proptest! {

@@ -1,17 +1,19 @@
 //! What one sample alone allows to work out.
 
+use super::sensors::complete_accelerations;
 use super::{center_of_mass, ergonomic_angles, joint_angles};
 use crate::rotation::Sequence;
 use crate::{CenterOfMass, Frame};
 
-/// Fills in what the frame lacks and its poses tell: joint and ergonomic angles in both sequences, and an estimate of the
-/// centre of mass.
+/// Fills in what the frame lacks and its poses tell: joint and ergonomic angles in both sequences, an estimate of the
+/// centre of mass, and of a sensor's acceleration and free acceleration the one from the other.
 ///
 /// What is there already stays as it is, and nothing is made up: without orientations there are no angles, and
 /// foot contacts are not guessed. Velocities need more than one sample: see [`Differences`](super::Differences), which
 /// comes after this, so that the centre of mass gets its velocity too.
 pub fn complete(frame: &mut Frame) {
     complete_angles(frame);
+    complete_accelerations(frame);
     if frame.center_of_mass.is_none() {
         let position = center_of_mass(&frame.subject.skeleton, &frame.position, &frame.orientation);
         frame.center_of_mass = position.map(|position| CenterOfMass {

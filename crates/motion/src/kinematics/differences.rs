@@ -9,8 +9,8 @@ use std::time::Duration;
 /// Works out velocities and accelerations from three samples in a row, for samples that lack them.
 ///
 /// Filled are [`velocity`](Frame::velocity), [`acceleration`](Frame::acceleration),
-/// [`angular_velocity`](Frame::angular_velocity), [`angular_acceleration`](Frame::angular_acceleration) and those of the
-/// centre of mass. A section that a frame has already stays as it is; an entry that is not tracked stays `None`.
+/// [`angular_velocity`](Frame::angular_velocity), [`angular_acceleration`](Frame::angular_acceleration), those of the
+/// centre of mass, and the angular velocity that [sensors](Frame::sensor_angular_velocity) measure. A section that a frame has already stays as it is; an entry that is not tracked stays `None`.
 ///
 /// Inside a run of samples differences are central. At both of its ends they are one-sided, over the same three samples:
 /// exact for a constant acceleration. A run ends where the sample number jumps back, repeats, or jumps ahead too far; a
@@ -94,8 +94,9 @@ impl Differences {
 
     fn continues(&self, last: &Sample, next: &Frame) -> bool {
         let step = next.sample.checked_sub(last.number).filter(|&step| step > 0);
-        let same_skeleton =
-            last.position.len() == next.position.len() && last.orientation.len() == next.orientation.len();
+        let same_skeleton = last.position.len() == next.position.len()
+            && last.orientation.len() == next.orientation.len()
+            && last.sensor_orientation.len() == next.sensor_orientation.len();
         self.rate > 0.0 && same_skeleton && step.is_some_and(|step| step - 1 <= self.longest_gap)
     }
 
@@ -139,6 +140,13 @@ impl Differences {
             &mut frame.angular_velocity,
             &mut frame.angular_acceleration,
         );
+        if frame.sensor_angular_velocity.is_empty() {
+            let measured = frame.sensor_orientation.iter().enumerate().map(|(entry, orientation)| {
+                let motion = steps.angular(self.each(|sample| sample.sensor_orientation[entry]));
+                Some((*orientation)?.conjugate() * motion.velocity?)
+            });
+            frame.sensor_angular_velocity = measured.collect();
+        }
         if let Some(center) = &mut frame.center_of_mass {
             let motion = steps.linear(self.each(|sample| sample.center));
             center.velocity = center.velocity.or(motion.velocity);
@@ -182,6 +190,7 @@ struct Sample {
     number: u32,
     position: Vec<Option<DVec3>>,
     orientation: Vec<Option<DQuat>>,
+    sensor_orientation: Vec<Option<DQuat>>,
     center: Option<DVec3>,
 }
 
@@ -190,6 +199,7 @@ impl Sample {
         self.number = frame.sample;
         self.position.clone_from(&frame.position);
         self.orientation.clone_from(&frame.orientation);
+        self.sensor_orientation.clone_from(&frame.sensor_orientation);
         self.center = frame.center_of_mass.map(|center| center.position);
     }
 }
@@ -286,6 +296,19 @@ mod tests {
             (found.unwrap() - expected).length() < 1e-9,
             "{found:?} is not {expected}"
         );
+    }
+
+    #[test]
+    fn a_sensor_measures_its_turning_in_its_own_axes() {
+        let tilt = DQuat::from_rotation_x(1.0);
+        let mut frames = take(&[0, 1, 2], |_| (DVec3::ZERO, DQuat::IDENTITY));
+        for (frame, seconds) in frames.iter_mut().zip([0.0, 0.02, 0.04]) {
+            frame.sensor_orientation = vec![Some(tilt * DQuat::from_rotation_y(2.0 * seconds)), None];
+        }
+        for frame in filled(frames) {
+            assert_near(frame.sensor_angular_velocity[0], DVec3::new(0.0, 2.0, 0.0));
+            assert_eq!(frame.sensor_angular_velocity[1], None);
+        }
     }
 
     #[test]

@@ -22,13 +22,16 @@
 mod center_of_mass;
 mod complete;
 mod differences;
+mod ergonomic;
 mod forward;
 mod gaps;
 mod joint_angles;
+mod sensors;
 
 pub use center_of_mass::center_of_mass;
 pub use complete::complete;
 pub use differences::Differences;
+pub use ergonomic::AllErgonomicAngles;
 pub use forward::segment_positions;
 pub use gaps::{LargestGaps, joint_gaps};
 pub use joint_angles::{ergonomic_angles, joint_angles};
