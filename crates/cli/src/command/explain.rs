@@ -1,0 +1,149 @@
+//! `posewire explain`: the bytes of datagrams, field by field.
+
+pub(super) mod input;
+mod json;
+pub(super) mod plain;
+mod split;
+mod text;
+
+use super::End;
+use crate::cli::Explain;
+use anyhow::anyhow;
+use posewire_mxtp::{Explanation, Header, explain};
+use split::{Part, Parts};
+use std::io::{self, BufWriter, Write};
+
+pub(super) fn run(arguments: &Explain) -> anyhow::Result<End> {
+    let bytes = input::read(&arguments.file)?;
+    let mut out = BufWriter::new(io::stdout().lock());
+    let tally = write_parts(&bytes, arguments.json, &mut out)?;
+    out.flush()?;
+    if tally.decoded > 0 {
+        return Ok(End::Done);
+    }
+    Err(nothing_decoded(&input::name(&arguments.file), &bytes, &tally))
+}
+
+/// A datagram of the input, explained.
+struct Explained<'a> {
+    /// Where it begins in the input.
+    offset: usize,
+    bytes: &'a [u8],
+    explanation: Explanation,
+}
+
+impl Explained<'_> {
+    fn header(&self) -> Option<Header> {
+        Header::decode(self.bytes).ok()
+    }
+}
+
+/// What the input held.
+#[derive(Debug, Default, PartialEq, Eq)]
+struct Tally {
+    decoded: u64,
+    malformed: u64,
+    skipped: u64,
+}
+
+impl Tally {
+    fn count(&mut self, part: &Part<'_>, decodes: bool) {
+        match part {
+            Part::Skipped { bytes, .. } => self.skipped += bytes.len() as u64,
+            Part::Datagram { .. } if decodes => self.decoded += 1,
+            Part::Datagram { .. } => self.malformed += 1,
+        }
+    }
+}
+
+fn write_parts(bytes: &[u8], json: bool, out: &mut impl Write) -> anyhow::Result<Tally> {
+    let mut tally = Tally::default();
+    for part in Parts::of(bytes) {
+        let mut decodes = false;
+        match part {
+            Part::Datagram { offset, bytes } => {
+                let explained = Explained {
+                    offset,
+                    bytes,
+                    explanation: explain(bytes),
+                };
+                decodes = explained.explanation.error.is_none();
+                if json {
+                    json::write_datagram(&explained, out)?;
+                } else {
+                    text::write_datagram(&explained, out)?;
+                }
+            }
+            Part::Skipped { offset, bytes } if json => json::write_skipped(offset, bytes.len(), out)?,
+            Part::Skipped { offset, bytes } => text::write_skipped(offset, bytes, out)?,
+        }
+        tally.count(&part, decodes);
+    }
+    if !json && tally.decoded + tally.malformed > 1 {
+        text::write_tally(&tally, out)?;
+    }
+    Ok(tally)
+}
+
+fn nothing_decoded(name: &str, bytes: &[u8], tally: &Tally) -> anyhow::Error {
+    match tally.malformed {
+        0 => {
+            let beginning = bytes[..bytes.len().min(8)].escape_ascii();
+            anyhow!("{name}: expected datagrams, which begin with \"MXTP\", found \"{beginning}\" and no datagram")
+        }
+        1 => anyhow!("{name}: the datagram is malformed and was explained as far as it goes"),
+        count => anyhow!("{name}: all {count} datagrams are malformed and were explained as far as they go"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use posewire_mxtp::body::{Body, TimeCode};
+    use posewire_mxtp::{Datagram, MessageType};
+
+    fn time_code() -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let header = Header::rev_j(MessageType::TIME_CODE, 7, 1_500);
+        let datagram = Datagram::new(header, Body::TimeCode(TimeCode::from_millis_of_day(45_296_789)));
+        datagram.unwrap().encode(&mut bytes);
+        bytes
+    }
+
+    fn told(bytes: &[u8], json: bool) -> (String, Tally) {
+        let mut out = Vec::new();
+        let tally = write_parts(bytes, json, &mut out).unwrap();
+        (String::from_utf8(out).unwrap(), tally)
+    }
+
+    #[test]
+    fn datagrams_garbage_and_malformed_ones_are_counted() {
+        let one = time_code();
+        let stream = [b"noise", &one[..], &one, &one[..30]].concat();
+        let expected = Tally {
+            decoded: 2,
+            malformed: 1,
+            skipped: 5,
+        };
+        assert_eq!(told(&stream, true).1, expected);
+        let (text, tally) = told(&stream, false);
+        assert_eq!(tally, expected);
+        assert!(
+            text.ends_with("\n3 datagrams, 1 of them malformed, 5 bytes skipped\n"),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn what_comes_off_the_wire_cannot_steer_the_terminal() {
+        let mut bytes = Header::rev_j(MessageType::META, 0, 0).encode().to_vec();
+        bytes.extend_from_slice(b"name\x1b[2J:\x1b[31mRed\r\xc2\x9b\n");
+        for json in [false, true] {
+            let (text, tally) = told(&bytes, json);
+            assert_eq!(tally.decoded, 1);
+            let steers = |c: char| c.is_control() && c != '\n';
+            assert!(!text.contains(steers) || json && text.contains('\u{9b}'), "{text:?}");
+            assert!(!text.contains('\x1b'), "{text:?}");
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! `posewire inspect`: what a take holds.
+
+mod contents;
+mod input;
+mod sections;
+mod survey;
+mod text;
+
+use super::End;
+use crate::cli::Inspect;
+use crate::context::{self, end_progress, show_progress};
+use crate::json;
+use contents::Contents;
+use input::TakeFile;
+use posewire::stop::Stop;
+use std::io::{self, BufWriter, Write};
+use std::time::{Duration, Instant};
+use survey::Survey;
+
+pub(super) fn run(arguments: &Inspect) -> anyhow::Result<End> {
+    let stop = context::stop_on_interrupt()?;
+    let mut file = TakeFile::open(&arguments.file, arguments.salvage)?;
+    let survey = read(&mut file, &stop);
+    end_progress();
+    let contents = Contents::of(&file, &survey?);
+    let mut out = BufWriter::new(io::stdout().lock());
+    if arguments.json {
+        json::write(&mut out, &contents)?;
+    } else {
+        text::write(&contents, &mut out)?;
+    }
+    out.flush()?;
+    Ok(End::Done)
+}
+
+/// Goes through the frames once, to the end or to the wish to stop.
+fn read(file: &mut TakeFile, stop: &Stop) -> posewire::Result<Survey> {
+    let mut survey = Survey::default();
+    let mut shown = Instant::now();
+    while !stop.is_stopped() {
+        let Some(frame) = file.next_frame()? else {
+            survey.complete = true;
+            break;
+        };
+        survey.add(&frame);
+        if survey.frames.is_multiple_of(64) && shown.elapsed() > PROGRESS_EVERY {
+            show_progress(file.progress(survey.frames));
+            shown = Instant::now();
+        }
+    }
+    Ok(survey)
+}
+
+const PROGRESS_EVERY: Duration = Duration::from_millis(500);
