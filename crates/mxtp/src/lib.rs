@@ -29,7 +29,9 @@ pub mod body;
 pub mod ids;
 pub mod motion;
 
+mod assembler;
 mod datagram;
+mod description;
 mod error;
 mod explain;
 mod framing;
@@ -37,6 +39,7 @@ mod header;
 mod quirk;
 mod sequence;
 
+pub use assembler::{Assembler, AssemblerOptions, Counters, Event, QuirkCounts};
 pub use datagram::Datagram;
 pub use error::Error;
 pub use explain::{Explanation, Field, Value, explain};
