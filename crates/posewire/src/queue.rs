@@ -164,6 +164,11 @@ impl<T> Producer<T> {
         self.shared.lock().dropped
     }
 
+    /// Whether nothing more can be pushed.
+    pub fn is_closed(&self) -> bool {
+        self.shared.lock().closed
+    }
+
     /// Closes the queue for every producer; the consumer still gets what is in it.
     pub fn close(&self) {
         self.shared.close();
@@ -174,6 +179,11 @@ impl<T> Consumer<T> {
     /// Waits at most `timeout` for an item, then moves all that are there to the end of `into`,
     /// under one lock.
     pub fn drain(&self, into: &mut Vec<T>, timeout: Duration) -> Drained {
+        self.drain_at_most(usize::MAX, into, timeout)
+    }
+
+    /// As [`drain`](Self::drain), but leaves all beyond the oldest `most` in the queue, where they can still be dropped.
+    pub fn drain_at_most(&self, most: usize, into: &mut Vec<T>, timeout: Duration) -> Drained {
         let mut state = self.shared.lock();
         if state.items.is_empty() && !state.closed && !timeout.is_zero() {
             state.consumer_waits = true;
@@ -182,15 +192,15 @@ impl<T> Consumer<T> {
             state = waited.unwrap_or_else(PoisonError::into_inner).0;
             state.consumer_waits = false;
         }
-        let count = state.items.len();
-        if count == 0 {
+        let count = state.items.len().min(most);
+        if state.items.is_empty() {
             return if state.closed {
                 Drained::Closed
             } else {
                 Drained::Nothing
             };
         }
-        into.extend(state.items.drain(..));
+        into.extend(state.items.drain(..count));
         if state.producers_waiting > 0 {
             self.shared.drained.notify_all();
         }

@@ -86,7 +86,8 @@ impl TcpIncoming {
 pub struct TcpConnection {
     stream: TcpStream,
     peer: SocketAddr,
-    timeout: Option<Duration>,
+    read_timeout: Option<Duration>,
+    write_timeout: Option<Duration>,
 }
 
 impl TcpConnection {
@@ -98,15 +99,36 @@ impl TcpConnection {
     pub fn read(&mut self, buffer: &mut [u8], timeout: Duration) -> Result<Option<usize>> {
         use io::ErrorKind::{Interrupted, TimedOut, WouldBlock};
         let timeout = timeout.max(Duration::from_millis(1));
-        if self.timeout != Some(timeout) {
+        if self.read_timeout != Some(timeout) {
             let outcome = self.stream.set_read_timeout(Some(timeout));
             outcome.map_err(|error| self.broken("read from", &error))?;
-            self.timeout = Some(timeout);
+            self.read_timeout = Some(timeout);
         }
         match self.stream.read(buffer) {
             Ok(count) => Ok(Some(count)),
             Err(error) if matches!(error.kind(), Interrupted | TimedOut | WouldBlock) => Ok(None),
             Err(error) => Err(self.broken("read from", &error)),
+        }
+    }
+
+    /// Writes as much as the peer takes at once, waiting at most `timeout` for it to take any. Gives how many bytes it
+    /// took, 0 when none in time.
+    ///
+    /// # Errors
+    /// [`Error::Socket`] when the connection broke.
+    pub fn write_some(&mut self, bytes: &[u8], timeout: Duration) -> Result<usize> {
+        use io::ErrorKind::{Interrupted, TimedOut, WouldBlock};
+        let timeout = timeout.max(Duration::from_millis(1));
+        if self.write_timeout != Some(timeout) {
+            let outcome = self.stream.set_write_timeout(Some(timeout));
+            outcome.map_err(|error| self.broken("write to", &error))?;
+            self.write_timeout = Some(timeout);
+        }
+        match self.stream.write(bytes) {
+            Ok(0) if !bytes.is_empty() => Err(self.broken("write to", &io::ErrorKind::WriteZero.into())),
+            Ok(count) => Ok(count),
+            Err(error) if matches!(error.kind(), Interrupted | TimedOut | WouldBlock) => Ok(0),
+            Err(error) => Err(self.broken("write to", &error)),
         }
     }
 
@@ -116,23 +138,13 @@ impl TcpConnection {
     /// [`Error::Stalled`] when the peer did not take them in time, [`Error::Socket`] when the
     /// connection broke. Either way a part may be written, so the connection is of no more use.
     pub fn write(&mut self, bytes: &[u8], limit: Duration) -> Result<()> {
-        use io::ErrorKind::{Interrupted, TimedOut, WouldBlock};
         let start = Instant::now();
-        let mut written = 0;
-        while let Some(rest) = bytes.get(written..).filter(|rest| !rest.is_empty()) {
-            let left = limit.saturating_sub(start.elapsed());
-            if left.is_zero() && written > 0 {
-                return Err(self.stalled(written, bytes.len(), limit));
-            }
-            let outcome = self.stream.set_write_timeout(Some(left.max(Duration::from_millis(1))));
-            match outcome.and_then(|()| self.stream.write(rest)) {
-                Ok(0) => return Err(self.broken("write to", &io::ErrorKind::WriteZero.into())),
-                Ok(count) => written += count,
-                Err(error) if error.kind() == Interrupted => {}
-                Err(error) if matches!(error.kind(), TimedOut | WouldBlock) => {
-                    return Err(self.stalled(written, bytes.len(), limit));
-                }
-                Err(error) => return Err(self.broken("write to", &error)),
+        let mut rest = bytes;
+        while !rest.is_empty() {
+            let written = self.write_some(rest, limit.saturating_sub(start.elapsed()))?;
+            rest = rest.get(written..).unwrap_or_default();
+            if !rest.is_empty() && start.elapsed() >= limit {
+                return Err(self.stalled(bytes.len() - rest.len(), bytes.len(), limit));
             }
         }
         Ok(())
@@ -161,7 +173,8 @@ impl TcpConnection {
         Ok(Self {
             stream,
             peer,
-            timeout: None,
+            read_timeout: None,
+            write_timeout: None,
         })
     }
 
@@ -169,7 +182,7 @@ impl TcpConnection {
         Error::socket(action, format!("tcp {}", self.peer), error)
     }
 
-    fn stalled(&self, written: usize, length: usize, limit: Duration) -> Error {
+    pub(crate) fn stalled(&self, written: usize, length: usize, limit: Duration) -> Error {
         Error::Stalled {
             peer: format!("tcp {}", self.peer),
             written,

@@ -207,7 +207,19 @@ fn ask_for_buffer(socket: &UdpSocket) {
     while size >= SMALLEST_BUFFER && socket.set_recv_buffer_size(size).is_err() {
         size /= 2;
     }
+    force_buffer(&socket);
 }
+
+/// A program with the right to may go over the limit that the system sets for all.
+#[cfg(target_os = "linux")]
+fn force_buffer(socket: &socket2::SockRef<'_>) {
+    use nix::sys::socket::{setsockopt, sockopt};
+    // Without the right the buffer stays as it is.
+    let _ = setsockopt(&**socket, sockopt::RcvBufForce, &BUFFER);
+}
+
+#[cfg(not(target_os = "linux"))]
+fn force_buffer(_socket: &socket2::SockRef<'_>) {}
 
 fn is_nothing(error: &io::Error) -> bool {
     use io::ErrorKind::{Interrupted, TimedOut, WouldBlock};
