@@ -1,6 +1,7 @@
 //! What can go wrong in the engine, and what to do about it.
 
 use std::io;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// A result whose error is the engine's [`Error`].
@@ -108,6 +109,54 @@ pub enum Error {
         /// The time it had.
         limit: Duration,
     },
+    /// A file that cannot be opened or read.
+    #[error("cannot read {path}: {reason}")]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// The kind of failure.
+        kind: io::ErrorKind,
+        /// What the system says.
+        reason: String,
+    },
+    /// A file that is not the take that its name says.
+    #[error("{path}: {error}")]
+    Take {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it, and where.
+        error: posewire_mvnx::Error,
+    },
+    /// A stream rate that the captured samples cannot give.
+    #[error("expected a rate above 0 and at most {captured} Hz, which is what was captured, found {found}")]
+    Rate {
+        /// Samples a second that there are.
+        captured: String,
+        /// The rate as given.
+        found: String,
+    },
+    /// An endpoint that motion cannot be sent to.
+    #[error("{endpoint}: motion cannot be sent there, expected mxtp://HOST:PORT or mxtp+tcp://HOST:PORT")]
+    NotATarget {
+        /// The endpoint.
+        endpoint: String,
+    },
+    /// More subjects than character numbers.
+    #[error("expected a character number from 0 to 255, found {found}")]
+    Character {
+        /// The number that a subject would have.
+        found: u32,
+    },
+    /// A sink that could not write what it was given.
+    #[error("cannot write to {place}: {reason}")]
+    Write {
+        /// Where to.
+        place: String,
+        /// The kind of failure.
+        kind: io::ErrorKind,
+        /// What the system says.
+        reason: String,
+    },
     /// A playback speed that no clock can run at.
     #[error("expected a finite playback speed above 0, found {found}")]
     Speed {
@@ -132,8 +181,57 @@ impl Error {
             Self::Interface { available, .. } => Some(format!("this machine has: {}", available.join(", "))),
             Self::Socket { address, kind, .. } => socket_help(address, *kind),
             Self::Stalled { peer, .. } => Some(format!("check that the program at {peer} reads its connection")),
+            Self::Read { kind, .. } => read_help(*kind),
+            Self::Take { error, .. } => Some(take_help(error).into()),
+            Self::Rate { .. } => Some("leave --rate out to send every sample".into()),
+            Self::NotATarget { .. } => Some("give a network address, as in --to mxtp://127.0.0.1:9763".into()),
+            Self::Character { .. } => Some("start at a lower --character, or stream fewer people".into()),
+            Self::Write { .. } => None,
             Self::Speed { .. } => Some("1 is real time, 0.5 half as fast".into()),
         }
+    }
+
+    /// The failure to open or read a file.
+    pub(crate) fn read(path: &Path, error: &io::Error) -> Self {
+        Self::Read {
+            path: path.to_owned(),
+            kind: error.kind(),
+            reason: reason(error),
+        }
+    }
+
+    /// What is wrong with a take.
+    pub(crate) fn take(path: &Path, error: posewire_mvnx::Error) -> Self {
+        Self::Take {
+            path: path.to_owned(),
+            error,
+        }
+    }
+
+    /// The failure to write to `place`.
+    pub fn write(place: impl Into<String>, error: &io::Error) -> Self {
+        Self::Write {
+            place: place.into(),
+            kind: error.kind(),
+            reason: reason(error),
+        }
+    }
+
+    /// Whether the arguments that led here were wrong, rather than what they led to.
+    pub fn is_usage(&self) -> bool {
+        matches!(
+            self,
+            Self::Url { .. }
+                | Self::UnknownOption { .. }
+                | Self::UnknownScheme { .. }
+                | Self::NotSupportedYet { .. }
+                | Self::Proprietary { .. }
+                | Self::UnknownFormat { .. }
+                | Self::Rate { .. }
+                | Self::NotATarget { .. }
+                | Self::Character { .. }
+                | Self::Speed { .. }
+        )
     }
 
     /// The refusal of `action` ("listen on", "send to" ...) on `address` by the system.
@@ -174,6 +272,28 @@ fn path_help(path: &str) -> String {
         format!("for a network address write mxtp://{path}")
     } else {
         "give an .mvnx file, mxtp://HOST:PORT, or synthetic:walk".into()
+    }
+}
+
+fn take_help(error: &posewire_mvnx::Error) -> &'static str {
+    use posewire_mvnx::Error;
+    match error {
+        Error::Binary { .. } => "open the take in MVN, export it as MVNX and use the .mvnx file",
+        Error::Empty | Error::NotMvnx { .. } => "give a take that was exported from MVN as MVNX",
+        Error::Version { .. } => "open the take in a current MVN and export it again as MVNX",
+        Error::Io { .. } | Error::Truncated { .. } | Error::Xml { .. } | Error::Columns { .. } => {
+            "--salvage uses the frames before the damage; exporting again from MVN may mend it"
+        }
+        _ => "export the take again from MVN, or mend the file at that place",
+    }
+}
+
+fn read_help(kind: io::ErrorKind) -> Option<String> {
+    match kind {
+        io::ErrorKind::NotFound => Some("check the path; a name with spaces needs quotes".into()),
+        io::ErrorKind::PermissionDenied => Some("ask for the right to read it".into()),
+        io::ErrorKind::IsADirectory => Some("name a file in this folder".into()),
+        _ => None,
     }
 }
 

@@ -21,9 +21,18 @@ pub mod clock;
 pub mod endpoint;
 mod error;
 pub mod histogram;
+mod item;
 pub mod net;
 pub mod pacer;
 pub mod queue;
+mod session;
+pub mod sink;
+pub mod source;
+pub mod stats;
 pub mod stop;
 
 pub use error::{Error, Result};
+pub use item::{Item, Notice};
+pub use session::{Outcome, Session};
+pub use sink::Sink;
+pub use source::Source;

@@ -1,0 +1,59 @@
+//! What travels from a source to its sinks.
+
+use crate::stats::Statistics;
+use posewire_motion::{Frame, Subject};
+use std::fmt;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// What travels from a source to its sinks: shared, so that a clone for another sink copies no data.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub enum Item {
+    /// A subject that is new, or whose description has changed. It comes before its first frame.
+    Subject(Arc<Subject>),
+    /// One sample of one subject.
+    Frame {
+        /// The sample.
+        frame: Arc<Frame>,
+        /// When it was to leave the source, for a source that is paced.
+        due: Option<Instant>,
+    },
+    /// How the stream is doing: once a second from a live source, and a last time when it ends.
+    Statistics(Arc<Statistics>),
+    /// Something that people should know about the source.
+    Notice(Notice),
+}
+
+/// Something that people should know about a source.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Notice {
+    /// A peer is connected.
+    Connected {
+        /// Its address.
+        peer: String,
+    },
+    /// A peer has gone.
+    Disconnected {
+        /// Its address.
+        peer: String,
+        /// Why, in the system's words.
+        reason: String,
+    },
+    /// A file ended before its end, and the frames up to there were used.
+    Damaged {
+        /// What is wrong and where.
+        problem: String,
+    },
+}
+
+impl fmt::Display for Notice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Connected { peer } => write!(f, "connected to {peer}"),
+            Self::Disconnected { peer, reason } => write!(f, "lost the connection to {peer}: {reason}"),
+            Self::Damaged { problem } => write!(f, "the file is damaged: {problem}"),
+        }
+    }
+}

@@ -1,0 +1,209 @@
+//! A TCP target: each peer has a queue and a thread of its own.
+
+use crate::Result;
+use crate::endpoint::{TcpAddress, TcpMode};
+use crate::net::{self, Backoff, TcpConnection, TcpIncoming};
+use crate::queue::{Consumer, Policy, Producer, bounded};
+use crate::stop::Stop;
+use posewire_mxtp::motion::Datagrams;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
+
+/// The peers behind one TCP endpoint: the one that we connect to, or all that connect to us.
+pub(super) struct TcpTarget {
+    peers: Arc<Peers>,
+    connecting: Option<JoinHandle<()>>,
+    /// The port that we listen on; `None` where we promised to connect, and samples count as dropped while nobody is there.
+    port: Option<u16>,
+}
+
+/// The datagrams of one sample, back to back as they go over the wire.
+#[derive(Clone)]
+struct Sample {
+    bytes: Arc<[u8]>,
+    datagrams: u64,
+}
+
+#[derive(Default)]
+struct Peers {
+    /// No new ones are taken; those that are there get what is queued until the limit.
+    ending: Stop,
+    queues: Mutex<Vec<Producer<Sample>>>,
+    open: AtomicUsize,
+    written: AtomicU64,
+    dropped: AtomicU64,
+}
+
+impl TcpTarget {
+    pub(super) fn open(address: &TcpAddress) -> Result<Self> {
+        let peers: Arc<Peers> = Arc::default();
+        let serving = Arc::clone(&peers);
+        if address.mode == Some(TcpMode::Listen) {
+            let incoming = net::listen(address)?;
+            let port = Some(incoming.local_address().port());
+            let connecting = Some(thread::spawn(move || accept_peers(&incoming, &serving)));
+            return Ok(Self {
+                peers,
+                connecting,
+                port,
+            });
+        }
+        let connection = net::connect(address, CONNECT_TIMEOUT)?;
+        let (address, queue) = (address.clone(), peers.welcome());
+        let connecting = Some(thread::spawn(move || {
+            keep_connected(&address, connection, &queue, &serving);
+        }));
+        Ok(Self {
+            peers,
+            connecting,
+            port: None,
+        })
+    }
+
+    /// The port that is listened on, if any.
+    pub(super) fn port(&self) -> Option<u16> {
+        self.port
+    }
+
+    pub(super) fn peers(&self) -> usize {
+        self.peers.open.load(Ordering::Relaxed)
+    }
+
+    pub(super) fn written(&self) -> u64 {
+        self.peers.written.load(Ordering::Relaxed)
+    }
+
+    pub(super) fn dropped(&self) -> u64 {
+        let queued: u64 = self.peers.lock().iter().map(Producer::dropped).sum();
+        queued + self.peers.dropped.load(Ordering::Relaxed)
+    }
+
+    /// Queues the datagrams of one sample for every peer. Never waits.
+    pub(super) fn send(&mut self, datagrams: &Datagrams) {
+        let mut queues = self.peers.lock();
+        if queues.is_empty() {
+            self.peers
+                .dropped
+                .fetch_add(u64::from(self.port.is_none()), Ordering::Relaxed);
+            return;
+        }
+        let sample = Sample {
+            bytes: datagrams.as_bytes().into(),
+            datagrams: datagrams.len() as u64,
+        };
+        // A queue closes with its connection; its thread has counted what it dropped.
+        queues.retain(|queue| queue.push(sample.clone()).is_ok());
+    }
+
+    /// Lets every peer have what is queued, within [`FLUSH_LIMIT`].
+    pub(super) fn finish(&mut self) {
+        self.peers.ending.stop();
+        self.peers.lock().iter().for_each(Producer::close);
+        if let Some(connecting) = self.connecting.take() {
+            connecting
+                .join()
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        }
+    }
+}
+
+impl Peers {
+    fn lock(&self) -> MutexGuard<'_, Vec<Producer<Sample>>> {
+        self.queues.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// A queue for a new peer.
+    fn welcome(&self) -> Consumer<Sample> {
+        let (producer, consumer) = bounded(QUEUED_SAMPLES, Policy::Newest);
+        let mut queues = self.lock();
+        if self.ending.is_stopped() {
+            producer.close();
+        }
+        queues.push(producer);
+        self.open.fetch_add(1, Ordering::Relaxed);
+        consumer
+    }
+
+    /// Writes what is queued until the queue closes, the connection breaks or the flush limit passes.
+    fn serve(&self, mut connection: TcpConnection, queue: &Consumer<Sample>) {
+        let peer = connection.peer();
+        if let Err(error) = self.write_all(&mut connection, queue) {
+            tracing::warn!(%peer, %error, "connection lost");
+        }
+        queue.close();
+        let left = queue.len() as u64 + queue.dropped();
+        self.dropped.fetch_add(left, Ordering::Relaxed);
+        self.lock().retain(|producer| !producer.is_closed());
+        self.open.fetch_sub(1, Ordering::Relaxed);
+    }
+
+    fn write_all(&self, connection: &mut TcpConnection, queue: &Consumer<Sample>) -> Result<()> {
+        let mut samples = Vec::new();
+        let mut flush_until = None;
+        while queue.drain_at_most(1, &mut samples, Duration::from_hours(1)).is_open() {
+            for sample in samples.drain(..) {
+                self.write(connection, &sample, &mut flush_until)?;
+            }
+        }
+        connection.finish()
+    }
+
+    /// Writes one sample, however long the peer takes; at the end only until the flush limit.
+    fn write(&self, connection: &mut TcpConnection, sample: &Sample, flush_until: &mut Option<Instant>) -> Result<()> {
+        let mut rest = &*sample.bytes;
+        while !rest.is_empty() {
+            let written = connection.write_some(rest, Duration::from_millis(100))?;
+            rest = rest.get(written..).unwrap_or_default();
+            if self.ending.is_stopped() {
+                let until = *flush_until.get_or_insert_with(|| Instant::now() + FLUSH_LIMIT);
+                if Instant::now() >= until && !rest.is_empty() {
+                    return Err(connection.stalled(sample.bytes.len() - rest.len(), sample.bytes.len(), FLUSH_LIMIT));
+                }
+            }
+        }
+        self.written.fetch_add(sample.datagrams, Ordering::Relaxed);
+        Ok(())
+    }
+}
+
+/// Serves the peer that we connect to, and connects again whenever it is lost.
+fn keep_connected(address: &TcpAddress, first: TcpConnection, queue: &Consumer<Sample>, peers: &Peers) {
+    peers.serve(first, queue);
+    let mut backoff = Backoff::default();
+    while !peers.ending.wait(backoff.next_delay()) {
+        if let Ok(connection) = net::connect(address, CONNECT_TIMEOUT) {
+            backoff.reset();
+            peers.serve(connection, &peers.welcome());
+        }
+    }
+}
+
+/// Serves every peer that connects to us.
+fn accept_peers(incoming: &TcpIncoming, peers: &Arc<Peers>) {
+    let mut serving = Vec::new();
+    while !peers.ending.is_stopped() {
+        serving.retain(|thread: &JoinHandle<()>| !thread.is_finished());
+        match incoming.accept(Duration::from_secs(1), &peers.ending) {
+            Ok(Some(connection)) if serving.len() < MAX_PEERS => {
+                let (queue, peers) = (peers.welcome(), Arc::clone(peers));
+                serving.push(thread::spawn(move || peers.serve(connection, &queue)));
+            }
+            Ok(_) => {}
+            Err(error) => {
+                tracing::warn!(%error, "cannot accept a connection");
+                peers.ending.wait(Duration::from_secs(1));
+            }
+        }
+    }
+    for thread in serving {
+        thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+    }
+}
+
+/// About a second of a 240 Hz stream.
+const QUEUED_SAMPLES: usize = 256;
+const CONNECT_TIMEOUT: Duration = Duration::from_secs(5);
+const FLUSH_LIMIT: Duration = Duration::from_secs(2);
+const MAX_PEERS: usize = 16;

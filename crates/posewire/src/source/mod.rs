@@ -1,0 +1,79 @@
+//! Where frames come from.
+
+mod file;
+mod mxtp;
+mod playback;
+pub mod synthetic;
+mod walk;
+
+pub use playback::{PlaybackOptions, Preview};
+
+use crate::Result;
+use crate::endpoint::Endpoint;
+use crate::session::Outlet;
+use crate::stop::Stop;
+use mxtp::{MxtpTcp, MxtpUdp};
+use playback::Playback;
+
+/// Where frames come from: opened, and not yet running.
+#[derive(Debug)]
+pub struct Source {
+    endpoint: Endpoint,
+    kind: Kind,
+}
+
+/// The closed set that the command line spells.
+#[derive(Debug)]
+enum Kind {
+    MxtpUdp(MxtpUdp),
+    MxtpTcp(MxtpTcp),
+    Playback(Playback),
+}
+
+impl Source {
+    /// Opens what an endpoint names: binds the socket, reads the head of the file. The options are for what is played
+    /// back; a live source has its own pace.
+    ///
+    /// # Errors
+    /// What keeps the endpoint from being opened, with its address or path.
+    pub fn open(endpoint: &Endpoint, options: &PlaybackOptions) -> Result<Self> {
+        let kind = match endpoint {
+            Endpoint::MxtpUdp(address) => Kind::MxtpUdp(MxtpUdp::open(address)?),
+            Endpoint::MxtpTcp(address) => Kind::MxtpTcp(MxtpTcp::open(address)?),
+            Endpoint::Synthetic(walk) => Kind::Playback(Playback::of_walk(walk, options)?),
+            Endpoint::File { path, .. } => Kind::Playback(Playback::of_file(path, options)?),
+        };
+        let endpoint = match &kind {
+            Kind::MxtpUdp(source) => source.endpoint(),
+            Kind::MxtpTcp(source) => source.endpoint(),
+            Kind::Playback(_) => endpoint.clone(),
+        };
+        Ok(Self { endpoint, kind })
+    }
+
+    /// Where it is open: the endpoint asked for, with the port that the system chose if it was 0.
+    pub fn endpoint(&self) -> &Endpoint {
+        &self.endpoint
+    }
+
+    /// Whether it comes at its own time and cannot be made to wait.
+    pub fn is_live(&self) -> bool {
+        !matches!(self.kind, Kind::Playback(_))
+    }
+
+    /// The samples a second and the subjects, where they are known beforehand.
+    pub fn preview(&self) -> Option<&Preview> {
+        match &self.kind {
+            Kind::Playback(playback) => Some(playback.preview()),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn run(self, outlet: &mut Outlet, stop: &Stop) -> Result<()> {
+        match self.kind {
+            Kind::MxtpUdp(source) => source.run(outlet, stop),
+            Kind::MxtpTcp(source) => source.run(outlet, stop),
+            Kind::Playback(playback) => playback.run(outlet, stop),
+        }
+    }
+}

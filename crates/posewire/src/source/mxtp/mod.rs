@@ -1,0 +1,8 @@
+//! MXTP from the network.
+
+mod intake;
+mod tcp;
+mod udp;
+
+pub(super) use tcp::MxtpTcp;
+pub(super) use udp::MxtpUdp;

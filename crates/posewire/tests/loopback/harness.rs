@@ -1,0 +1,173 @@
+//! Streams something and gathers what arrives.
+
+use posewire::endpoint::Endpoint;
+use posewire::sink::{MxtpSink, MxtpSinkOptions, Progress};
+use posewire::source::PlaybackOptions;
+use posewire::stats::{Statistics, TypeStatistics};
+use posewire::stop::Stop;
+use posewire::{Item, Result, Session, Sink, Source};
+use posewire_motion::{Frame, Subject};
+use posewire_mxtp::MessageType;
+use posewire_mxtp::motion::MessageTypes;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard};
+use std::time::Duration;
+
+/// Everything that arrived.
+#[derive(Clone, Default)]
+pub(crate) struct Gathered {
+    pub(crate) frames: Vec<Arc<Frame>>,
+    pub(crate) subjects: Vec<Arc<Subject>>,
+    pub(crate) statistics: Option<Arc<Statistics>>,
+}
+
+impl Gathered {
+    /// The numbers of one datagram type of one character.
+    pub(crate) fn statistics_of(&self, character: u32, message_type: MessageType) -> &TypeStatistics {
+        let statistics = self
+            .statistics
+            .as_ref()
+            .expect("a receiver gives statistics when it ends");
+        let subject = statistics
+            .subjects
+            .iter()
+            .find(|subject| subject.subject.id == character);
+        let types = &subject.expect("the character was heard").types;
+        types
+            .iter()
+            .find(|of_type| of_type.message_type == message_type)
+            .expect("the type was heard")
+    }
+
+    /// Asserts that nothing of any type of any character was lost or strange.
+    pub(crate) fn assert_whole(&self) {
+        let statistics = self
+            .statistics
+            .as_ref()
+            .expect("a receiver gives statistics when it ends");
+        assert_eq!(statistics.malformed, 0);
+        assert_eq!(statistics.kernel_dropped, 0);
+        assert_eq!(statistics.skipped_bytes, 0);
+        for subject in &statistics.subjects {
+            for of_type in &subject.types {
+                let counters = &of_type.counters;
+                let losses = [
+                    counters.missing,
+                    counters.duplicate,
+                    counters.late,
+                    counters.reset,
+                    counters.incomplete,
+                ];
+                assert_eq!(
+                    losses, [0; 5],
+                    "type {} of character {}",
+                    of_type.message_type, subject.subject.id
+                );
+            }
+        }
+    }
+}
+
+/// A sink that keeps everything. Clones keep it in the same place.
+#[derive(Clone, Default)]
+pub(crate) struct Gatherer(Arc<(Mutex<Gathered>, Condvar)>);
+
+impl Gatherer {
+    pub(crate) fn lock(&self) -> MutexGuard<'_, Gathered> {
+        self.0.0.lock().unwrap()
+    }
+
+    /// Waits until what was gathered is enough; fails when it is not in a generous time.
+    pub(crate) fn wait_until(&self, enough: impl Fn(&Gathered) -> bool) {
+        let waiting = |gathered: &mut Gathered| !enough(gathered);
+        let (gathered, timeout) = self.0.1.wait_timeout_while(self.lock(), PATIENCE, waiting).unwrap();
+        assert!(
+            !timeout.timed_out(),
+            "after {PATIENCE:?} only {} frames have come",
+            gathered.frames.len()
+        );
+    }
+}
+
+impl Sink for Gatherer {
+    fn accept(&mut self, item: &Item) -> Result<()> {
+        let mut gathered = self.lock();
+        match item {
+            Item::Frame { frame, .. } => gathered.frames.push(Arc::clone(frame)),
+            Item::Subject(subject) => gathered.subjects.push(Arc::clone(subject)),
+            Item::Statistics(statistics) => gathered.statistics = Some(Arc::clone(statistics)),
+            _ => {}
+        }
+        self.0.1.notify_all();
+        Ok(())
+    }
+}
+
+/// A receiver that runs.
+pub(crate) struct Receiver {
+    pub(crate) endpoint: Endpoint,
+    pub(crate) gatherer: Gatherer,
+    session: Session,
+    stop: Stop,
+}
+
+impl Receiver {
+    pub(crate) fn start(endpoint: &str) -> Self {
+        let source = Source::open(&endpoint.parse().unwrap(), &PlaybackOptions::default()).unwrap();
+        let (endpoint, gatherer, stop) = (source.endpoint().clone(), Gatherer::default(), Stop::new());
+        let session = Session::start(source, vec![Box::new(gatherer.clone())], stop.clone());
+        Self {
+            endpoint,
+            gatherer,
+            session,
+            stop,
+        }
+    }
+
+    /// Waits for as many frames, then ends and gives everything.
+    pub(crate) fn finish(self, frames: u64) -> Gathered {
+        self.gatherer
+            .wait_until(|gathered| gathered.frames.len() as u64 >= frames);
+        self.stop.stop();
+        assert_eq!(self.session.wait().unwrap().dropped, 0);
+        self.gatherer.lock().clone()
+    }
+}
+
+/// Plays a source to a sink until it ends.
+pub(crate) fn play(source: &str, playback: &PlaybackOptions, sink: MxtpSink) -> Progress {
+    let stop = Stop::new();
+    let source = Source::open(&source.parse().unwrap(), playback).unwrap();
+    let progress = sink.progress();
+    sink.wait_until_ready(&stop);
+    Session::start(source, vec![Box::new(sink)], stop).wait().unwrap();
+    let progress = progress.lock().unwrap().clone();
+    assert_eq!(progress.lost(), 0);
+    progress
+}
+
+/// Streams a source over UDP and gives what arrived.
+pub(crate) fn over_udp(source: &str, playback: &PlaybackOptions, options: MxtpSinkOptions) -> Gathered {
+    let receiver = Receiver::start("mxtp://127.0.0.1:0");
+    let sink = MxtpSink::open(std::slice::from_ref(&receiver.endpoint), options).unwrap();
+    let progress = play(source, playback, sink);
+    receiver.finish(progress.frames)
+}
+
+/// Options that send these types.
+pub(crate) fn types(types: &str) -> MxtpSinkOptions {
+    MxtpSinkOptions {
+        types: types.parse::<MessageTypes>().unwrap(),
+        ..MxtpSinkOptions::default()
+    }
+}
+
+/// Playback that ends after so many seconds.
+pub(crate) fn seconds(seconds: f64) -> PlaybackOptions {
+    PlaybackOptions {
+        duration: Some(Duration::from_secs_f64(seconds)),
+        ..PlaybackOptions::default()
+    }
+}
+
+/// Far more than any test needs on the slowest machine.
+const PATIENCE: Duration = Duration::from_mins(1);
