@@ -1,0 +1,81 @@
+//! The live page of a terminal: a screen, the keys, and twenty pictures a second at most.
+
+mod angles;
+mod characters;
+mod controls;
+mod draw;
+#[cfg(test)]
+mod example;
+mod figure;
+mod header;
+mod layout;
+mod overlay;
+mod pose;
+mod problems;
+mod stick;
+mod table;
+mod text;
+mod theme;
+mod types;
+mod view;
+mod watch;
+
+use super::board::Board;
+use controls::Controls;
+use posewire::stop::Stop;
+use ratatui::DefaultTerminal;
+use ratatui::crossterm::event::{self, Event, KeyEventKind};
+use std::time::{Duration, Instant};
+use theme::Theme;
+use watch::Watch;
+
+/// Shows the board until `q` is pressed or `stop` is set.
+pub(super) fn run(board: &Board, stop: &Stop) -> anyhow::Result<()> {
+    let mut screen = Screen::open()?;
+    let mut watch = Watch::new(Instant::now());
+    let mut controls = Controls::default();
+    let theme = Theme::of_terminal();
+    let mut view = watch.look(board, Instant::now());
+    while !stop.is_stopped() && !controls.quit {
+        let begun = Instant::now();
+        if !controls.paused {
+            view = watch.look(board, begun);
+        }
+        screen.0.draw(|frame| draw::draw(frame, &view, &controls, theme))?;
+        handle_events(&mut controls, &view.ids(), begun + PICTURE)?;
+    }
+    Ok(())
+}
+
+/// Takes what is typed until it is time for the next picture. A key is answered at once when the time has come anyway.
+fn handle_events(controls: &mut Controls, characters: &[u32], until: Instant) -> std::io::Result<()> {
+    while event::poll(until.saturating_duration_since(Instant::now()))? {
+        if let Event::Key(key) = event::read()?
+            && key.kind != KeyEventKind::Release
+        {
+            controls.press(key, characters);
+        }
+        if controls.quit {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// The terminal in raw mode on its second screen, put back on every way out: a return, an error, a panic.
+struct Screen(DefaultTerminal);
+
+impl Screen {
+    fn open() -> std::io::Result<Self> {
+        ratatui::try_init().map(Self).inspect_err(|_| ratatui::restore())
+    }
+}
+
+impl Drop for Screen {
+    fn drop(&mut self) {
+        ratatui::restore();
+    }
+}
+
+/// Twenty pictures a second are as many as an eye can use of numbers.
+const PICTURE: Duration = Duration::from_millis(50);

@@ -1,0 +1,137 @@
+//! What the keys have set.
+
+use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+
+/// What the keys have set.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Controls {
+    pub(super) quit: bool,
+    pub(super) paused: bool,
+    pub(super) help: bool,
+    /// The number of the chosen character; the first when none is chosen or it is not there.
+    pub(super) selected: Option<u32>,
+    /// The pane that is shown where there is no room for all of them.
+    pub(super) pane: Pane,
+    /// The first line of a list that is too long for its pane. The pane bounds it.
+    pub(super) scroll: u16,
+}
+
+/// A part of the page that takes turns with others on a small terminal.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Pane {
+    #[default]
+    Types,
+    Figure,
+    Angles,
+    Problems,
+}
+
+impl Pane {
+    pub(super) const ALL: [Self; 4] = [Self::Types, Self::Figure, Self::Angles, Self::Problems];
+
+    pub(super) const fn title(self) -> &'static str {
+        match self {
+            Self::Types => "datagram types",
+            Self::Figure => "figure",
+            Self::Angles => "joint angles",
+            Self::Problems => "problems",
+        }
+    }
+
+    fn moved(self, by: usize) -> Self {
+        let place = Self::ALL.iter().position(|pane| *pane == self).unwrap_or(0);
+        Self::ALL[(place + by) % Self::ALL.len()]
+    }
+}
+
+impl Controls {
+    /// Takes a key. `characters` are the numbers of those who are there, in order.
+    pub(super) fn press(&mut self, key: KeyEvent, characters: &[u32]) {
+        if key.modifiers.contains(KeyModifiers::CONTROL) {
+            self.quit |= key.code == KeyCode::Char('c');
+            return;
+        }
+        let leaves_help = matches!(key.code, KeyCode::Char('?' | 'h') | KeyCode::F(1) | KeyCode::Esc);
+        match key.code {
+            _ if leaves_help && self.help => self.help = false,
+            KeyCode::Char('q') | KeyCode::Esc => self.quit = true,
+            KeyCode::Char('?' | 'h') | KeyCode::F(1) => self.help = true,
+            KeyCode::Char('p' | ' ') => self.paused = !self.paused,
+            _ => self.turn(key.code, characters),
+        }
+    }
+
+    fn turn(&mut self, key: KeyCode, characters: &[u32]) {
+        match key {
+            KeyCode::Down | KeyCode::Right | KeyCode::Char('j') => self.select(characters, 1),
+            KeyCode::Up | KeyCode::Left | KeyCode::Char('k') => self.select(characters, -1),
+            KeyCode::Tab => self.show(self.pane.moved(1)),
+            KeyCode::BackTab => self.show(self.pane.moved(Pane::ALL.len() - 1)),
+            KeyCode::PageDown => self.scroll = self.scroll.saturating_add(SCROLL),
+            KeyCode::PageUp => self.scroll = self.scroll.saturating_sub(SCROLL),
+            KeyCode::Home => self.scroll = 0,
+            _ => {}
+        }
+    }
+
+    fn select(&mut self, characters: &[u32], by: isize) {
+        let place = characters.iter().position(|id| Some(*id) == self.selected).unwrap_or(0);
+        let place = place.saturating_add_signed(by).min(characters.len().saturating_sub(1));
+        self.selected = characters.get(place).copied();
+    }
+
+    fn show(&mut self, pane: Pane) {
+        self.pane = pane;
+        self.scroll = 0;
+    }
+}
+
+const SCROLL: u16 = 5;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn after(keys: &[KeyCode]) -> Controls {
+        let mut controls = Controls::default();
+        keys.iter()
+            .for_each(|key| controls.press(KeyEvent::from(*key), &[0, 3, 7]));
+        controls
+    }
+
+    #[test]
+    fn arrows_choose_a_character_and_stop_at_the_ends() {
+        assert_eq!(after(&[KeyCode::Down]).selected, Some(3));
+        assert_eq!(after(&[KeyCode::Char('j'); 5]).selected, Some(7));
+        assert_eq!(after(&[KeyCode::Down, KeyCode::Up, KeyCode::Up]).selected, Some(0));
+    }
+
+    #[test]
+    fn a_choice_among_nobody_is_none() {
+        let mut controls = Controls::default();
+        controls.press(KeyCode::Down.into(), &[]);
+        assert_eq!(controls.selected, None);
+    }
+
+    #[test]
+    fn tab_goes_round_the_panes_and_back() {
+        assert_eq!(after(&[KeyCode::Tab; 4]).pane, Pane::Types);
+        assert_eq!(after(&[KeyCode::BackTab]).pane, Pane::Problems);
+    }
+
+    #[test]
+    fn escape_leaves_the_help_first_and_the_page_then() {
+        let controls = after(&[KeyCode::Char('?'), KeyCode::Esc]);
+        assert!(!controls.help && !controls.quit);
+        assert!(after(&[KeyCode::Esc]).quit);
+        assert!(after(&[KeyCode::Char('q')]).quit);
+    }
+
+    #[test]
+    fn control_c_quits_and_c_does_not() {
+        let mut controls = Controls::default();
+        controls.press(KeyEvent::new(KeyCode::Char('c'), KeyModifiers::CONTROL), &[]);
+        assert!(controls.quit);
+        assert!(!after(&[KeyCode::Char('c')]).quit);
+    }
+}

@@ -1,0 +1,115 @@
+//! The whole page.
+
+use super::controls::{Controls, Pane};
+use super::layout::{Layout, Wanted, top};
+use super::table::{put, put_right, slot, width};
+use super::theme::{Theme, bold, faint};
+use super::view::{Character, View};
+use super::{angles, characters, figure, header, overlay, problems, types};
+use ratatui::Frame;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+/// Draws the page.
+pub(super) fn draw(frame: &mut Frame, view: &View, controls: &Controls, theme: Theme) {
+    let area = frame.area();
+    let buffer = frame.buffer_mut();
+    match view.character(controls.selected) {
+        Some(selected) => draw_stream(buffer, area, view, selected, controls, theme),
+        None => draw_silence(buffer, area, view, controls, theme),
+    }
+    if controls.help {
+        overlay::draw_help(buffer, area, theme);
+    }
+}
+
+fn draw_silence(buffer: &mut Buffer, area: Rect, view: &View, controls: &Controls, theme: Theme) {
+    let wanted = Wanted {
+        characters: 0,
+        types: 0,
+        angles: 0,
+        problems: 0,
+    };
+    let layout = Layout::new(area, wanted, Pane::Types);
+    let mut rest = area;
+    top(&mut rest, 1);
+    rest.height -= layout.footer.height;
+    header::draw(buffer, layout.header, view, controls, theme);
+    overlay::draw_silence(buffer, rest, view, theme);
+    header::draw_keys(buffer, layout.footer, 0, 0);
+}
+
+fn draw_stream(buffer: &mut Buffer, area: Rect, view: &View, selected: &Character, controls: &Controls, theme: Theme) {
+    let problems = problems::of(view, selected);
+    let wanted = Wanted {
+        characters: lines(view.characters.len()),
+        types: lines(selected.types.len().max(1)) + 1,
+        angles: lines(angles::count(selected)),
+        problems: lines(problems.len().max(1)),
+    };
+    let layout = Layout::new(area, wanted, controls.pane);
+    header::draw(buffer, layout.header, view, controls, theme);
+    characters::draw(buffer, layout.characters, view, selected, theme);
+    for (place, (pane, part)) in layout.panes.iter().enumerate() {
+        let takes_turns = place + 1 == layout.panes.len();
+        let turns = if takes_turns { layout.turns } else { &[] };
+        let body = draw_title(buffer, *part, (*pane, turns), selected, theme);
+        match pane {
+            Pane::Types => types::draw(buffer, body, selected, theme),
+            Pane::Figure => figure::draw(buffer, body, selected, theme),
+            Pane::Angles => angles::draw(buffer, body, selected, controls.scroll),
+            Pane::Problems => problems::draw(buffer, body, &problems, theme),
+        }
+    }
+    header::draw_keys(buffer, layout.footer, layout.turns.len(), view.characters.len());
+}
+
+/// A rule with the pane's name, or with the names of all that take turns; gives what is below.
+fn draw_title(
+    buffer: &mut Buffer,
+    mut area: Rect,
+    (pane, turns): (Pane, &[Pane]),
+    selected: &Character,
+    theme: Theme,
+) -> Rect {
+    let line = top(&mut area, 1);
+    rule(buffer, line);
+    let mut x = 1;
+    let mut say = |text: &str, style| {
+        put(buffer, slot(line, 0, x, width(text)), text, style);
+        x = x.saturating_add(width(text));
+    };
+    if turns.len() < 2 {
+        say(&format!(" {} ", pane.title()), theme.title());
+    } else {
+        for turn in turns {
+            let shown = *turn == pane;
+            let name = if shown {
+                format!(" [{}] ", turn.title())
+            } else {
+                format!(" {} ", turn.title())
+            };
+            say(&name, if shown { theme.title() } else { faint() });
+        }
+    }
+    if pane == Pane::Figure || turns.len() > 1 {
+        let name = format!(" {} ", selected.subject.name);
+        let end = slot(line, 0, x, line.width.saturating_sub(x + 1));
+        if end.width >= width(&name) {
+            put_right(buffer, end, &name, bold());
+        }
+    }
+    area
+}
+
+/// A thin line across.
+pub(super) fn rule(buffer: &mut Buffer, line: Rect) {
+    put(buffer, line, &"─".repeat(line.width.into()), faint());
+}
+
+fn lines(count: usize) -> u16 {
+    u16::try_from(count).unwrap_or(u16::MAX / 2)
+}
+
+#[cfg(test)]
+mod tests;

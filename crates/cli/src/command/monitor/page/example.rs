@@ -1,0 +1,171 @@
+//! Made-up views for tests.
+
+use super::view::{Character, Troubles, TypeRow, View};
+use posewire::histogram::Summary;
+use posewire_motion::kinematics::complete;
+use posewire_motion::{Color, DQuat, DVec3, Frame, Skeleton, Subject};
+use posewire_mxtp::{MessageType, Quirk};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// So many characters who stand in the T-pose, all well.
+pub(super) fn view(people: u32) -> View {
+    View {
+        listening: "mxtp://0.0.0.0:9763".to_owned(),
+        elapsed: Duration::from_secs(83),
+        datagrams: 98_400,
+        datagrams_per_second: 1_203.0,
+        bytes_per_second: 512_345.0,
+        notice: Some("connected to 10.0.0.7:51234".to_owned()),
+        characters: (0..people).map(character).collect(),
+        ..View::default()
+    }
+}
+
+/// Everything that can go wrong with a stream and its first character, but for being lost.
+pub(super) fn trouble(view: &mut View) {
+    view.troubles = Troubles {
+        kernel_dropped: 417,
+        malformed: 3,
+        last_malformed: Some("expected MXTP, found 00 00 00 00".to_owned()),
+        skipped_bytes: 120,
+        characters_refused: 5,
+    };
+    let Some(row) = view
+        .characters
+        .first_mut()
+        .and_then(|character| character.types.first_mut())
+    else {
+        return;
+    };
+    row.missing = 12;
+    row.duplicate = 2;
+    row.late = 7;
+    row.reset = 1;
+    row.incomplete = 4;
+    row.malformed = 1;
+    row.stride = Some(4);
+    row.quirks = vec![(Quirk::ItemCount, 240), (Quirk::PayloadSize, 99_000)];
+}
+
+/// A sample of someone in the T-pose, 1.75 m tall, at the origin.
+pub(super) fn standing(id: u32, name: &str) -> Frame {
+    let mut subject = Subject::new(name, Skeleton::standard(0, false));
+    subject.id = id;
+    subject.color = Some(Color([0xe9, 0x64, 0x17]));
+    let mut frame = Frame::new(Arc::new(subject));
+    frame.position = frame
+        .subject
+        .skeleton
+        .segments
+        .iter()
+        .map(|segment| segment.origin)
+        .collect();
+    frame.orientation = vec![Some(DQuat::IDENTITY); 23];
+    frame.sample = 6681;
+    frame.time = Duration::from_millis(27_837);
+    frame.timecode = "12:34:56.789".parse().ok();
+    complete(&mut frame);
+    frame
+}
+
+/// Someone who swings arms and legs, at a phase from 0 to 1.
+pub(super) fn walking(id: u32, name: &str, phase: f64) -> Frame {
+    let mut frame = standing(id, name);
+    let swing = (phase * std::f64::consts::TAU).sin();
+    let turns = [
+        (
+            "RightUpperArm",
+            DQuat::from_rotation_y(0.5 * swing) * DQuat::from_rotation_x(1.3),
+        ),
+        (
+            "RightForeArm",
+            DQuat::from_rotation_y(0.5 * swing - 0.4) * DQuat::from_rotation_x(1.3),
+        ),
+        (
+            "LeftUpperArm",
+            DQuat::from_rotation_y(-0.5 * swing) * DQuat::from_rotation_x(-1.3),
+        ),
+        (
+            "LeftForeArm",
+            DQuat::from_rotation_y(-0.5 * swing - 0.4) * DQuat::from_rotation_x(-1.3),
+        ),
+        ("RightUpperLeg", DQuat::from_rotation_y(-0.45 * swing)),
+        ("RightLowerLeg", DQuat::from_rotation_y(0.3 - 0.45 * swing)),
+        ("LeftUpperLeg", DQuat::from_rotation_y(0.45 * swing)),
+        ("LeftLowerLeg", DQuat::from_rotation_y(0.3 + 0.45 * swing)),
+    ];
+    let subject = Arc::clone(&frame.subject);
+    let skeleton = &subject.skeleton;
+    for (name, turn) in turns {
+        if let Some(place) = skeleton.segment(name) {
+            frame.orientation[place] = Some(turn);
+        }
+    }
+    let copies = [
+        ("RightHand", "RightForeArm"),
+        ("LeftHand", "LeftForeArm"),
+        ("RightFoot", "RightLowerLeg"),
+        ("LeftFoot", "LeftLowerLeg"),
+    ];
+    for (hand, arm) in copies {
+        if let (Some(hand), Some(arm)) = (skeleton.segment(hand), skeleton.segment(arm)) {
+            frame.orientation[hand] = frame.orientation[arm];
+        }
+    }
+    let hips = DVec3::new(phase, 0.2, 0.9);
+    posewire_motion::kinematics::segment_positions(skeleton, hips, &frame.orientation, &mut frame.position);
+    frame.joint_angles.clear();
+    frame.ergonomic_angles.clear();
+    complete(&mut frame);
+    frame
+}
+
+fn character(id: u32) -> Character {
+    let name = ["Ada", "Grace", "Katherine", "Linus"]
+        .get(id as usize)
+        .map_or_else(|| format!("Walker {id}"), |name| (*name).to_owned());
+    let frame = Arc::new(standing(id, &name));
+    let types = [2, 12, 13, 20, 24, 25]
+        .into_iter()
+        .filter_map(MessageType::new)
+        .map(type_row)
+        .collect();
+    let timecode = frame.timecode;
+    Character {
+        subject: Arc::clone(&frame.subject),
+        frame: Some(frame),
+        age: Duration::from_millis(4),
+        timecode,
+        types,
+    }
+}
+
+fn type_row(message_type: MessageType) -> TypeRow {
+    let often = !matches!(message_type, MessageType::META | MessageType::SCALE);
+    let period = if often {
+        Duration::from_micros(4_167)
+    } else {
+        Duration::from_secs(1)
+    };
+    let interval = Summary {
+        count: 100,
+        p50: period,
+        p99: period * 11 / 10,
+        max: period * 2,
+    };
+    TypeRow {
+        message_type,
+        rate_hz: 1.0 / period.as_secs_f64(),
+        stride: often.then_some(1),
+        received: if often { 19_920 } else { 83 },
+        missing: 0,
+        duplicate: 0,
+        late: 0,
+        reset: 0,
+        incomplete: 0,
+        malformed: 0,
+        quirks: Vec::new(),
+        interval,
+    }
+}

@@ -1,0 +1,81 @@
+//! Boxes above the page: what the keys do, and what to check when nothing comes.
+
+use super::table::{put, slot, width};
+use super::theme::{Theme, faint};
+use super::view::View;
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Alignment, Rect};
+use ratatui::style::Style;
+use ratatui::text::Line;
+use ratatui::widgets::{Block, BorderType, Clear, Padding, Paragraph, Widget, Wrap};
+
+/// Draws what the keys do and what the words mean.
+pub(super) fn draw_help(buffer: &mut Buffer, area: Rect, theme: Theme) {
+    draw_box(buffer, area, (" help ", theme.title()), HELP);
+}
+
+/// Draws what is listened on and, after a while, what to check.
+pub(super) fn draw_silence(buffer: &mut Buffer, area: Rect, view: &View, theme: Theme) {
+    match &view.hint {
+        Some(hint) => draw_box(buffer, area, (" nothing heard ", theme.warn()), hint),
+        None => {
+            let text = format!("listening on {}", view.listening);
+            let margin = area.width.saturating_sub(width(&text)) / 2;
+            put(buffer, slot(area, area.height / 2, margin, area.width), &text, faint());
+        }
+    }
+}
+
+fn draw_box(buffer: &mut Buffer, area: Rect, (title, style): (&str, Style), text: &str) {
+    let columns = text
+        .lines()
+        .map(width)
+        .max()
+        .unwrap_or(0)
+        .saturating_add(6)
+        .min(area.width);
+    let room = usize::from(columns.saturating_sub(6).max(1));
+    let lines: usize = text
+        .lines()
+        .map(|line| usize::from(width(line)).div_ceil(room).max(1))
+        .sum();
+    let lines = u16::try_from(lines)
+        .unwrap_or(u16::MAX)
+        .saturating_add(2)
+        .min(area.height);
+    let place = Rect {
+        x: area.x + (area.width - columns) / 2,
+        y: area.y + (area.height - lines) / 2,
+        width: columns,
+        height: lines,
+    };
+    Clear.render(place, buffer);
+    let block = Block::bordered()
+        .border_type(BorderType::Rounded)
+        .border_style(style)
+        .title(Line::styled(title, style))
+        .title_alignment(Alignment::Center)
+        .padding(Padding::horizontal(2));
+    Paragraph::new(text)
+        .block(block)
+        .wrap(Wrap { trim: false })
+        .render(place, buffer);
+}
+
+const HELP: &str = "\
+q, Esc, Ctrl-C   quit
+↑ ↓  j k         another character
+Tab  Shift-Tab   another pane, where they take turns
+PgUp PgDn Home   move a list that is too long
+p, space         hold the picture, and go on
+?                this box
+
+● LIVE   a sample within the last quarter second
+◐ STALE  none for longer than that
+✖ LOST   none for more than two seconds
+○ WAIT   described, but no sample yet
+
+#        the character's number on the wire; MVN shows one more
+missing  samples that never came, counted in strides
+stride   the sender streams one sample in so many
+quirks   deviations from the specification that were accepted";

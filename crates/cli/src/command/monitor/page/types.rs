@@ -1,0 +1,122 @@
+//! The datagram types of a character.
+
+use super::layout::top;
+use super::pose;
+use super::table::{Column, Table, put, slot};
+use super::text;
+use super::theme::{Theme, faint};
+use super::view::{Character, TypeRow};
+use posewire_mxtp::MessageType;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+
+/// Draws a line for each type and, where there is room below, where the character is.
+pub(super) fn draw(buffer: &mut Buffer, mut area: Rect, character: &Character, theme: Theme) {
+    let lines = 1 + character.types.len().max(1);
+    let types = top(&mut area, u16::try_from(lines).unwrap_or(u16::MAX));
+    draw_types(buffer, types, &character.types, theme);
+    if area.height > pose::LINES {
+        top(&mut area, 1);
+        pose::draw(buffer, area, character);
+    }
+}
+
+fn draw_types(buffer: &mut Buffer, area: Rect, types: &[TypeRow], theme: Theme) {
+    if types.is_empty() {
+        put(
+            buffer,
+            slot(area, 0, 1, area.width),
+            "counted once a second: nothing yet",
+            faint(),
+        );
+        return;
+    }
+    let area = Rect {
+        x: area.x + u16::from(area.width > 0),
+        width: area.width.saturating_sub(1),
+        ..area
+    };
+    let table = Table::fit(&COLUMNS, area.width);
+    table.head(buffer, area, 0);
+    for (line, row) in (1..area.height).zip(types) {
+        table.row(buffer, area, line, |column, width| cell(row, column, width, theme));
+    }
+}
+
+fn cell(row: &TypeRow, column: usize, width: usize, theme: Theme) -> (String, Style) {
+    let quirks = row.quirks.iter().map(|(_, count)| count).sum();
+    let counted = |count: u64, some: Style| {
+        let style = if count == 0 { faint() } else { some };
+        (text::count(count, width), style)
+    };
+    let plain = |text: String| (text, Style::new());
+    match column {
+        0 => plain(format!("{:02}", row.message_type.number())),
+        1 => plain(name(row.message_type, width).to_owned()),
+        2 if row.rate_hz == 0.0 => ("0.0".to_owned(), faint()),
+        2 => plain(text::rate(row.rate_hz)),
+        3 => counted(row.received, Style::new()),
+        4 => counted(row.missing, theme.bad()),
+        5 => counted(row.duplicate, theme.warn()),
+        6 => counted(row.late, theme.warn()),
+        7 => counted(row.reset, theme.warn()),
+        8 => counted(row.incomplete, theme.bad()),
+        9 => counted(row.malformed, theme.bad()),
+        10 => counted(quirks, theme.warn()),
+        _ if row.interval.count == 0 => ("-".to_owned(), faint()),
+        11 => plain(text::milliseconds(row.interval.p50)),
+        12 => plain(text::milliseconds(row.interval.p99)),
+        _ => plain(text::milliseconds(row.interval.max)),
+    }
+}
+
+/// The type's name, a short one where there is little room.
+fn name(message_type: MessageType, width: usize) -> &'static str {
+    let long = message_type.name();
+    if long.len() <= width {
+        return long;
+    }
+    match message_type {
+        MessageType::EULER => "pose, Euler",
+        MessageType::QUATERNION => "pose, quat.",
+        MessageType::POINTS => "points",
+        MessageType::UNITY => "pose, Unity",
+        MessageType::LINEAR => "linear kin.",
+        MessageType::ANGULAR => "angular kin.",
+        MessageType::TRACKERS => "trackers",
+        MessageType::CENTER_OF_MASS => "mass centre",
+        MessageType::TAGS => "tags",
+        _ => long,
+    }
+}
+
+const COLUMNS: [Column; 14] = [
+    Column::text("ty", (2, 2), 0),
+    Column::text("type", (12, 26), 1),
+    Column::number(("rate", "rate Hz"), (5, 7), 2),
+    Column::number(("recvd", "received"), (6, 9), 3),
+    Column::number(("miss", "missing"), (5, 7), 4),
+    Column::number(("dup", "duplicate"), (4, 9), 9),
+    Column::number(("late", "late"), (4, 6), 10),
+    Column::number(("rst", "reset"), (3, 5), 11),
+    Column::number(("inc", "incomplete"), (3, 10), 12),
+    Column::number(("mal", "malformed"), (3, 9), 8),
+    Column::number(("qrk", "quirks"), (4, 6), 7),
+    Column::number(("p50ms", "p50 ms"), (5, 6), 13),
+    Column::number(("p99ms", "p99 ms"), (5, 6), 5),
+    Column::number(("maxms", "max ms"), (5, 6), 6),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_name_fits_its_narrowest_column() {
+        let all = (0..100).filter_map(MessageType::new);
+        for message_type in all {
+            assert!(name(message_type, 12).len() <= 12, "{message_type}");
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! From the board to a view: how old samples are, how fast bytes come, and when it has been quiet for too long.
+
+use super::super::board::Board;
+use super::view::{Character, Troubles, TypeRow, View};
+use posewire::stats::{Statistics, SubjectStatistics, TypeStatistics};
+use posewire_motion::Frame;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Remembers what it needs to tell how old a sample is and how fast the stream runs.
+pub(super) struct Watch {
+    opened: Instant,
+    /// The newest sample of each character, and when it was first seen here: no clock of the sender is trusted.
+    seen: BTreeMap<u32, (Arc<Frame>, Instant)>,
+    statistics: Option<Arc<Statistics>>,
+    /// Datagrams and bytes a second between the last two statistics.
+    speed: (f64, f64),
+}
+
+impl Watch {
+    pub(super) fn new(opened: Instant) -> Self {
+        Self {
+            opened,
+            seen: BTreeMap::new(),
+            statistics: None,
+            speed: (0.0, 0.0),
+        }
+    }
+
+    /// What the board says now.
+    pub(super) fn look(&mut self, board: &Board, now: Instant) -> View {
+        self.note_statistics(board.statistics());
+        self.note_frames(board.frames(), now);
+        let elapsed = now.saturating_duration_since(self.opened);
+        let mut view = View {
+            listening: board.listening().to_owned(),
+            elapsed,
+            notice: board.notice().map(|notice| notice.to_string()),
+            hint: (elapsed >= QUIET_AFTER && !board.has_heard()).then(|| board.hint()),
+            characters: self.characters(now),
+            datagrams_per_second: self.speed.0,
+            bytes_per_second: self.speed.1,
+            ..View::default()
+        };
+        if let Some(statistics) = &self.statistics {
+            view.datagrams = statistics.datagrams;
+            view.troubles = troubles(statistics);
+        }
+        view
+    }
+
+    fn note_statistics(&mut self, newest: Option<Arc<Statistics>>) {
+        let Some(newest) = newest else { return };
+        let (elapsed, datagrams, bytes) = match &self.statistics {
+            Some(known) if Arc::ptr_eq(known, &newest) => return,
+            Some(before) => (before.elapsed, before.datagrams, before.bytes),
+            None => (Duration::ZERO, 0, 0),
+        };
+        let seconds = newest.elapsed.saturating_sub(elapsed).as_secs_f64();
+        if seconds > 0.0 {
+            let speed = |count: u64, before: u64| count.saturating_sub(before) as f64 / seconds;
+            self.speed = (speed(newest.datagrams, datagrams), speed(newest.bytes, bytes));
+        }
+        self.statistics = Some(newest);
+    }
+
+    fn note_frames(&mut self, frames: Vec<Arc<Frame>>, now: Instant) {
+        for frame in frames {
+            let seen = self
+                .seen
+                .entry(frame.subject.id)
+                .or_insert_with(|| (Arc::clone(&frame), now));
+            if !Arc::ptr_eq(&seen.0, &frame) {
+                *seen = (frame, now);
+            }
+        }
+    }
+
+    /// Everyone of whom a sample or only a description has come.
+    fn characters(&self, now: Instant) -> Vec<Character> {
+        let described = self.statistics.iter().flat_map(|statistics| &statistics.subjects);
+        let mut all: BTreeMap<u32, Character> = described
+            .map(|subject| (subject.subject.id, described_character(subject)))
+            .collect();
+        for (id, (frame, since)) in &self.seen {
+            let character = all.entry(*id).or_insert_with(|| bare_character(frame));
+            character.subject = Arc::clone(&frame.subject);
+            character.timecode = frame.timecode.or(character.timecode);
+            character.frame = Some(Arc::clone(frame));
+            character.age = now.saturating_duration_since(*since);
+        }
+        all.into_values().collect()
+    }
+}
+
+fn described_character(of_subject: &SubjectStatistics) -> Character {
+    Character {
+        subject: Arc::clone(&of_subject.subject),
+        frame: None,
+        age: Duration::ZERO,
+        timecode: of_subject.timecode,
+        types: of_subject.types.iter().map(type_row).collect(),
+    }
+}
+
+fn bare_character(frame: &Arc<Frame>) -> Character {
+    Character {
+        subject: Arc::clone(&frame.subject),
+        frame: None,
+        age: Duration::ZERO,
+        timecode: None,
+        types: Vec::new(),
+    }
+}
+
+fn type_row(of_type: &TypeStatistics) -> TypeRow {
+    let counters = &of_type.counters;
+    TypeRow {
+        message_type: of_type.message_type,
+        rate_hz: of_type.rate_hz,
+        stride: counters.stride,
+        received: counters.received,
+        missing: counters.missing,
+        duplicate: counters.duplicate,
+        late: counters.late,
+        reset: counters.reset,
+        incomplete: counters.incomplete,
+        malformed: counters.malformed,
+        quirks: counters.quirks.iter().collect(),
+        interval: of_type.interval,
+    }
+}
+
+fn troubles(statistics: &Statistics) -> Troubles {
+    Troubles {
+        kernel_dropped: statistics.kernel_dropped,
+        malformed: statistics.malformed,
+        last_malformed: statistics.last_malformed.clone(),
+        skipped_bytes: statistics.skipped_bytes,
+        characters_refused: statistics.characters_refused,
+    }
+}
+
+const QUIET_AFTER: Duration = Duration::from_secs(3);
