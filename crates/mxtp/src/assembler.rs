@@ -20,12 +20,13 @@ use std::time::Duration;
 /// [`poll`](Self::poll). UDP and TCP streams are treated alike.
 ///
 /// A sample is complete, and its frame there, with the last of the message types that the character's samples have had
-/// of late. When one of them does not come, the frame follows without it: as soon as more than four samples are open,
-/// after [`AssemblerOptions::close_after`], or with [`finish`](Self::finish). Frames of a character come in the order of
-/// their samples, except for a sample of which nothing had arrived when a newer one was done.
+/// of late; what these are shows when a character's second sample begins. When one of them does not come, the frame
+/// follows without it: as soon as more than four samples are open, after [`AssemblerOptions::close_after`], or with
+/// [`finish`](Self::finish). Frames of a character come in the order of their samples, except for a sample of which
+/// nothing had arrived when a newer one was done.
 ///
 /// Memory is bounded whatever arrives: 64 characters, four open samples for each of them with 256 KiB of parts of split
-/// messages, and 4096 events.
+/// messages, and 1024 events that wait to be polled for.
 ///
 /// ```
 /// use posewire_motion::{DQuat, DVec3, Frame, Skeleton, Stamp, Subject};

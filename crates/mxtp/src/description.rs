@@ -6,7 +6,7 @@ mod scale;
 
 use crate::body::{Meta, Scale};
 use crate::motion::MessageTypes;
-use crate::{DatagramCounter, Header, MessageType};
+use crate::{DatagramCounter, Header};
 use layout::{Layout, PoseCount};
 use meta::MetaTags;
 use posewire_motion::{Connector, Segment, Skeleton, Subject};
@@ -60,15 +60,17 @@ impl Description {
     }
 
     /// Takes note of how many segments a whole pose has. `live` are the types that the stream carries at present.
-    pub(crate) fn note_pose(&mut self, message_type: MessageType, segments: usize, live: MessageTypes) {
-        self.poses.note(message_type, segments, live);
+    #[inline]
+    pub(crate) fn note_pose(&mut self, header: &Header, segments: usize, live: MessageTypes) {
+        self.poses.note(header, segments, live);
     }
 
     /// Sets the segment counts to those of a header and of the poses noted; true when they differ from before. The
     /// subject keeps the old ones until it is published.
     #[inline]
     pub(crate) fn adopt_layout(&mut self, header: &Header) -> bool {
-        let layout = Layout::new(header.segment_counts(), self.poses.segments());
+        let counts = header.segment_counts();
+        let layout = Layout::new(counts, self.poses.segments(counts));
         if self.layout == Some(layout) {
             return false;
         }
@@ -124,6 +126,7 @@ fn clipped(text: &str, limit: usize) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::MessageType;
     use crate::body::ScaleBuffer;
     use crate::ids::{PointId, SegmentCounts};
     use posewire_motion::{Color, DVec3};

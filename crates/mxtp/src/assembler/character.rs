@@ -243,7 +243,7 @@ impl Character {
             }
             Stored::Whole => {
                 let segments = self.open[place].segments(message_type);
-                let place = self.adopt_layout(place, Some(segments), arrival);
+                let place = self.adopt_layout(place, segments, arrival);
                 let (sample, stream) = (&mut self.open[place], &mut self.streams[arrival.stream]);
                 sample.pour(message_type, |quirks| stream.note_quirks(quirks));
                 sample.whole = sample.whole.with(message_type);
@@ -293,8 +293,8 @@ impl Character {
         let decided = self.open[place].layout_known && header.body_segments != 0;
         self.open[place].layout_known = true;
         if let Some(segments) = segments {
-            let message_type = header.message_type;
-            self.description.note_pose(message_type, segments, self.expected);
+            let live = self.expected.union(self.open[place].seen);
+            self.description.note_pose(header, segments, live);
         }
         if decided || !self.description.adopt_layout(header) {
             return place;

@@ -28,4 +28,5 @@ impl Events {
     }
 }
 
-const MAX_EVENTS: usize = 4096;
+/// More than one call can bring: every open sample of every character, and then some.
+const MAX_EVENTS: usize = 1024;

@@ -98,16 +98,12 @@ impl OpenSample {
         }
     }
 
-    /// How many segments the parts of a pose have together.
-    pub(super) fn segments(&self, message_type: MessageType) -> usize {
+    /// How many segments the parts of a pose have together; `None` for what is no pose.
+    pub(super) fn segments(&self, message_type: MessageType) -> Option<usize> {
         let parts = || self.parts.of(message_type).map(|(_, datagram)| datagram);
         let items = parts().filter_map(|datagram| datagram.body.items()).sum::<usize>();
-        items.max(
-            parts()
-                .filter_map(|datagram| last_segment(&datagram))
-                .max()
-                .unwrap_or(0),
-        )
+        let last = parts().filter_map(|datagram| last_segment(&datagram)).max();
+        is_pose(message_type).then(|| items.max(last.unwrap_or(0)))
     }
 
     /// The frame as it is.

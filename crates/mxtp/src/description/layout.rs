@@ -1,8 +1,8 @@
 //! How many segments a character has, and the skeleton that follows from it.
 
-use crate::MessageType;
 use crate::ids::{BODY_SEGMENTS, HAND_SEGMENTS, SegmentCounts};
 use crate::motion::MessageTypes;
+use crate::{Header, MessageType};
 use posewire_motion::standard::MAX_PROPS;
 use posewire_motion::{Segment, SegmentKind, Skeleton};
 
@@ -56,22 +56,26 @@ impl Layout {
 pub(super) struct PoseCount {
     best: Option<MessageType>,
     segments: usize,
+    /// What the header of that pose counted.
+    counts: SegmentCounts,
 }
 
 impl PoseCount {
     /// A worse type counts only when the best one is no longer `live`: Unity poses lack props and fingers.
     #[inline]
-    pub(super) fn note(&mut self, message_type: MessageType, segments: usize, live: MessageTypes) {
-        let better = |best| rank(message_type) <= rank(best) || !live.contains(best);
+    pub(super) fn note(&mut self, header: &Header, segments: usize, live: MessageTypes) {
+        let better = |best| rank(header.message_type) <= rank(best) || !live.contains(best);
         if segments > 0 && self.best.is_none_or(better) {
-            (self.best, self.segments) = (Some(message_type), segments.min(MAX_SEGMENTS));
+            self.best = Some(header.message_type);
+            self.segments = segments.min(MAX_SEGMENTS);
+            self.counts = header.segment_counts();
         }
     }
 
-    /// 0 when no pose has come.
+    /// 0 when no pose has come since headers count so.
     #[inline]
-    pub(super) fn segments(&self) -> usize {
-        self.segments
+    pub(super) fn segments(&self, counts: SegmentCounts) -> usize {
+        if self.counts == counts { self.segments } else { 0 }
     }
 }
 
@@ -125,11 +129,15 @@ mod tests {
     fn a_worse_type_counts_only_when_the_better_is_gone() {
         let mut poses = PoseCount::default();
         let live = MessageTypes::NONE.with(MessageType::QUATERNION);
-        poses.note(MessageType::UNITY, 23, live);
-        poses.note(MessageType::QUATERNION, 63, live);
-        poses.note(MessageType::UNITY, 23, live);
-        assert_eq!(poses.segments(), 63);
-        poses.note(MessageType::UNITY, 23, MessageTypes::NONE);
-        assert_eq!(poses.segments(), 23);
+        let old = SegmentCounts::default();
+        let mut note = |message_type, segments, live| {
+            poses.note(&Header::rev_j(message_type, 0, 0), segments, live);
+            poses.segments(old)
+        };
+        assert_eq!(note(MessageType::UNITY, 23, live), 23);
+        assert_eq!(note(MessageType::QUATERNION, 63, live), 63);
+        assert_eq!(note(MessageType::UNITY, 23, live), 63);
+        assert_eq!(note(MessageType::UNITY, 23, MessageTypes::NONE), 23);
+        assert_eq!(poses.segments(SegmentCounts::BODY), 0);
     }
 }

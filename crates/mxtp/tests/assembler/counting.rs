@@ -1,0 +1,150 @@
+//! What is counted of each stream.
+
+use crate::stream::{Receiver, Sender};
+use posewire_mxtp::{Datagram, Event, Header, MessageType, Quirk};
+
+const POSE: MessageType = MessageType::QUATERNION;
+
+#[test]
+fn a_stride_is_shown_and_losses_are_counted_in_it() {
+    let (mut receiver, mut sender) = (Receiver::new(), Sender::new("02,20"));
+    receiver.feed_samples(&mut sender, (0..400).step_by(4).filter(|sample| *sample != 200));
+    for message_type in [POSE, MessageType::JOINT_ANGLES] {
+        let counters = receiver.counters(message_type);
+        assert_eq!((counters.stride, counters.missing, counters.received), (Some(4), 1, 99));
+        assert_eq!(
+            (counters.last_sample, counters.last_time_ms),
+            (Some(396), Some(4 * 396))
+        );
+    }
+    assert_eq!(receiver.frames().len(), 99);
+}
+
+#[test]
+fn a_stride_that_changes_is_learnt_anew() {
+    let (mut receiver, mut sender) = (Receiver::new(), Sender::new("02"));
+    receiver.feed_samples(&mut sender, (0..100).chain((100..400).step_by(4)));
+    let counters = receiver.counters(POSE);
+    assert_eq!((counters.stride, counters.missing, counters.reset), (Some(4), 0, 0));
+    assert_eq!(receiver.frames().len(), 175);
+}
+
+#[test]
+fn the_counter_may_wrap_around() {
+    let (mut receiver, mut sender) = (Receiver::new(), Sender::new("02,20"));
+    receiver.feed_samples(&mut sender, (u32::MAX - 20..=u32::MAX).chain(0..20));
+    let counters = receiver.counters(POSE);
+    assert_eq!((counters.missing, counters.late, counters.reset), (0, 0, 0));
+    assert_eq!(receiver.frame_numbers()[20..23], [u32::MAX, 0, 1]);
+    assert_eq!(receiver.frames().len(), 41);
+}
+
+#[test]
+fn a_new_session_is_a_reset_and_closes_what_was_open() {
+    let (mut receiver, mut sender) = (Receiver::new(), Sender::new("02,20"));
+    receiver.feed_samples(&mut sender, 5000..5100);
+    receiver.feed(sender.sample(5100).iter().take(1));
+    receiver.feed_samples(&mut sender, 0..100);
+    let counters = receiver.counters(POSE);
+    assert_eq!((counters.reset, counters.missing, counters.late), (1, 0, 0));
+    assert_eq!(receiver.frame_numbers()[99..103], [5099, 5100, 0, 1]);
+    assert_eq!(receiver.frames().len(), 201);
+}
+
+#[test]
+fn a_recording_that_is_wound_back_is_a_reset() {
+    let (mut receiver, mut sender) = (Receiver::new(), Sender::new("02,20"));
+    receiver.feed_samples(&mut sender, (0..100).chain(50..150));
+    for message_type in [POSE, MessageType::JOINT_ANGLES] {
+        let counters = receiver.counters(message_type);
+        assert_eq!(
+            (counters.reset, counters.missing, counters.late, counters.duplicate),
+            (1, 0, 0, 0)
+        );
+    }
+    let expected: Vec<_> = (0..100).chain(57..150).collect();
+    assert_eq!(receiver.frame_numbers(), expected);
+}
+
+#[test]
+fn a_message_that_comes_again_is_a_duplicate() {
+    let (mut receiver, mut sender) = (Receiver::new(), Sender::new("02,20"));
+    for number in 0..20 {
+        let sample = sender.sample(number);
+        receiver.feed(sample.iter().chain(sample.iter()));
+    }
+    let counters = receiver.counters(POSE);
+    assert_eq!(
+        (counters.datagrams, counters.received, counters.duplicate),
+        (40, 20, 20)
+    );
+    assert_eq!(receiver.frames().len(), 20);
+    let messages = receiver
+        .events
+        .iter()
+        .filter(|event| matches!(event, Event::Message { .. }));
+    assert_eq!(messages.count(), 40);
+}
+
+#[test]
+fn descriptions_are_counted_but_never_missing() {
+    let (mut receiver, mut sender) = (Receiver::new(), Sender::new("02,12,13"));
+    for _ in 0..3 {
+        receiver.feed(sender.description().iter());
+        receiver.feed_samples(&mut sender, 0..1);
+    }
+    let meta = receiver.counters(MessageType::META);
+    assert_eq!(
+        (meta.datagrams, meta.received, meta.duplicate, meta.missing),
+        (3, 3, 0, 0)
+    );
+    let scale = receiver.counters(MessageType::SCALE);
+    assert_eq!((scale.datagrams, scale.received, scale.last_sample), (18, 18, None));
+}
+
+#[test]
+fn types_that_are_not_understood_are_passed_on() {
+    let mut receiver = Receiver::new();
+    for number in [4, 10, 11, 77] {
+        let mut bytes = Header::rev_j(MessageType::new(number).unwrap(), 9, 0).encode().to_vec();
+        bytes.extend([1, 2, 3]);
+        receiver.feed([&bytes[..]]);
+        let expected = MessageType::new(number).unwrap();
+        assert!(receiver.events.iter().any(|event| matches!(
+            event,
+            Event::Opaque { message_type, sample: 9, payload, .. } if *message_type == expected && payload == &[1, 2, 3]
+        )));
+        assert_eq!(receiver.counters(expected).received, 1);
+    }
+    receiver.finish();
+    assert_eq!(receiver.frames().len(), 0);
+}
+
+#[test]
+fn malformed_datagrams_are_counted_by_kind_and_by_stream() {
+    let mut receiver = Receiver::new();
+    let mut cut = Header::rev_j(POSE, 0, 0).encode().to_vec();
+    cut.extend([0; 33]);
+    receiver.feed([&b"MXTP"[..], &b"GARBAGE GARBAGE GARBAGE GARBAGE"[..], &cut[..]]);
+    let kinds: Vec<_> = receiver.assembler.malformed().collect();
+    assert_eq!(kinds, [("magic", 1), ("payload-size", 1), ("short-header", 1)]);
+    assert_eq!(receiver.counters(POSE).malformed, 1);
+    assert!(matches!(receiver.events[2], Event::Malformed { header: Some(_), .. }));
+}
+
+#[test]
+fn quirks_are_counted_once_a_datagram() {
+    let (mut receiver, mut sender) = (Receiver::new(), Sender::new("02"));
+    for number in 0..5 {
+        let mut bytes = sender.sample(number).iter().next().unwrap().to_vec();
+        for id in 0..23 {
+            bytes[Header::SIZE + 32 * id + 3] = id as u8;
+        }
+        assert!(Datagram::decode(&bytes).is_ok());
+        receiver.feed([&bytes[..]]);
+    }
+    let counters = receiver.counters(POSE);
+    let quirks: Vec<_> = counters.quirks.iter().collect();
+    assert_eq!(quirks, [(Quirk::SegmentIdsFromZero, 5)]);
+    assert_eq!(receiver.frames()[4].position, sender.frame.position);
+}

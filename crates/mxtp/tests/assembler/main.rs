@@ -1,0 +1,9 @@
+//! What an assembler makes of datagrams, however they arrive.
+
+mod any_input;
+mod bounds;
+mod counting;
+mod description;
+mod order;
+mod split;
+mod stream;
