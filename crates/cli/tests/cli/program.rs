@@ -6,14 +6,14 @@ use std::process::{Command, Stdio};
 
 /// How the program ended and what it said.
 #[derive(Debug, PartialEq, Eq)]
-pub struct Ended {
-    pub code: Option<i32>,
-    pub out: String,
-    pub err: String,
+pub(crate) struct Ended {
+    pub(crate) code: Option<i32>,
+    pub(crate) out: String,
+    pub(crate) err: String,
 }
 
 /// Runs the program in a folder with these arguments and this standard input.
-pub fn posewire(folder: &Path, arguments: &[&str], input: &[u8]) -> Ended {
+pub(crate) fn posewire(folder: &Path, arguments: &[&str], input: &[u8]) -> Ended {
     let mut child = Command::new(env!("CARGO_BIN_EXE_posewire"))
         .args(arguments)
         .current_dir(folder)
@@ -33,12 +33,12 @@ pub fn posewire(folder: &Path, arguments: &[&str], input: &[u8]) -> Ended {
 }
 
 /// The project's own datagrams.
-pub fn vectors() -> PathBuf {
+pub(crate) fn vectors() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../testdata/mxtp")
 }
 
 /// A file of recorded data that does not come with the project, when it is there.
-pub fn reference(name: &str) -> Option<PathBuf> {
+pub(crate) fn reference(name: &str) -> Option<PathBuf> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("../../../shared/data")
         .join(name);
@@ -50,7 +50,7 @@ pub fn reference(name: &str) -> Option<PathBuf> {
 }
 
 /// Checks that a text fits on a page of 100 columns.
-pub fn assert_fits(text: &str) {
+pub(crate) fn assert_fits(text: &str) {
     for line in text.lines() {
         assert!(line.chars().count() <= 100, "{line}");
         assert_eq!(line, line.trim_end());
