@@ -1,8 +1,8 @@
 //! Joint and ergonomic angles in degrees.
 
 use super::layout::top;
-use super::table::{Column, Table, put, put_right, slot};
-use super::theme::faint;
+use super::table::{Column, Table, put, slot};
+use super::theme::{bold, faint};
 use super::view::Character;
 use posewire_motion::{DVec3, Frame};
 use ratatui::buffer::Buffer;
@@ -39,13 +39,17 @@ pub(super) fn draw(buffer: &mut Buffer, mut area: Rect, character: &Character, s
             table.row(buffer, part(area), line, |column, _| cell(name, *angle, column));
         }
     }
-    if lines > area.height.into() && area.height > 0 {
-        let text = format!(
-            "{}-{} of {lines}, PgUp PgDn ",
-            first + 1,
-            lines.min(first + usize::from(area.height))
-        );
-        put_right(buffer, slot(head, 0, 0, head.width), &text, faint());
+    draw_scroll_marks(buffer, area, first > 0, first + usize::from(area.height) < lines);
+}
+
+/// Arrows at the right edge, where there is more above or below.
+fn draw_scroll_marks(buffer: &mut Buffer, area: Rect, above: bool, below: bool) {
+    let edge = area.width.saturating_sub(1);
+    if above {
+        put(buffer, slot(area, 0, edge, 1), "▲", bold());
+    }
+    if below {
+        put(buffer, slot(area, area.height.saturating_sub(1), edge, 1), "▼", bold());
     }
 }
 

@@ -69,7 +69,7 @@ fn cell(character: &Character, is_selected: bool, (column, width): (usize, usize
     let plain = if is_selected { bold() } else { Style::new() };
     let or_dash = |text: Option<String>| (text.unwrap_or_else(|| "-".to_owned()), plain);
     match column {
-        MARK => (if is_selected { "▶" } else { "" }.to_owned(), bold()),
+        MARK => (if is_selected { "▸" } else { "" }.to_owned(), bold()),
         SWATCH if theme == Theme::Plain || subject.color.is_none() => (String::new(), plain),
         SWATCH => ("██".to_owned(), Style::new().fg(theme.own(subject.color))),
         NUMBER => (subject.id.to_string(), plain),
@@ -92,7 +92,7 @@ pub(super) const fn state_text(state: State) -> &'static str {
         State::Waiting => "○ WAIT",
         State::Live => "● LIVE",
         State::Stale => "◐ STALE",
-        State::Lost => "✖ LOST",
+        State::Lost => "✗ LOST",
     }
 }
 

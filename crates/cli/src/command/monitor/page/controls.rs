@@ -94,8 +94,9 @@ mod tests {
 
     fn after(keys: &[KeyCode]) -> Controls {
         let mut controls = Controls::default();
-        keys.iter()
-            .for_each(|key| controls.press(KeyEvent::from(*key), &[0, 3, 7]));
+        for key in keys {
+            controls.press(KeyEvent::from(*key), &[0, 3, 7]);
+        }
         controls
     }
 

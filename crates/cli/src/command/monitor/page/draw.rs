@@ -45,7 +45,7 @@ fn draw_stream(buffer: &mut Buffer, area: Rect, view: &View, selected: &Characte
         characters: lines(view.characters.len()),
         types: lines(selected.types.len().max(1)) + 1,
         angles: lines(angles::count(selected)),
-        problems: lines(problems.len().max(1)),
+        problems: lines(problems.len()),
     };
     let layout = Layout::new(area, wanted, controls.pane);
     header::draw(buffer, layout.header, view, controls, theme);

@@ -3,7 +3,7 @@
 use super::view::{Character, Troubles, TypeRow, View};
 use posewire::histogram::Summary;
 use posewire_motion::kinematics::complete;
-use posewire_motion::{Color, DQuat, DVec3, Frame, Skeleton, Subject};
+use posewire_motion::{Color, DQuat, Frame, Skeleton, Subject};
 use posewire_mxtp::{MessageType, Quirk};
 use std::sync::Arc;
 use std::time::Duration;
@@ -65,58 +65,6 @@ pub(super) fn standing(id: u32, name: &str) -> Frame {
     frame.sample = 6681;
     frame.time = Duration::from_millis(27_837);
     frame.timecode = "12:34:56.789".parse().ok();
-    complete(&mut frame);
-    frame
-}
-
-/// Someone who swings arms and legs, at a phase from 0 to 1.
-pub(super) fn walking(id: u32, name: &str, phase: f64) -> Frame {
-    let mut frame = standing(id, name);
-    let swing = (phase * std::f64::consts::TAU).sin();
-    let turns = [
-        (
-            "RightUpperArm",
-            DQuat::from_rotation_y(0.5 * swing) * DQuat::from_rotation_x(1.3),
-        ),
-        (
-            "RightForeArm",
-            DQuat::from_rotation_y(0.5 * swing - 0.4) * DQuat::from_rotation_x(1.3),
-        ),
-        (
-            "LeftUpperArm",
-            DQuat::from_rotation_y(-0.5 * swing) * DQuat::from_rotation_x(-1.3),
-        ),
-        (
-            "LeftForeArm",
-            DQuat::from_rotation_y(-0.5 * swing - 0.4) * DQuat::from_rotation_x(-1.3),
-        ),
-        ("RightUpperLeg", DQuat::from_rotation_y(-0.45 * swing)),
-        ("RightLowerLeg", DQuat::from_rotation_y(0.3 - 0.45 * swing)),
-        ("LeftUpperLeg", DQuat::from_rotation_y(0.45 * swing)),
-        ("LeftLowerLeg", DQuat::from_rotation_y(0.3 + 0.45 * swing)),
-    ];
-    let subject = Arc::clone(&frame.subject);
-    let skeleton = &subject.skeleton;
-    for (name, turn) in turns {
-        if let Some(place) = skeleton.segment(name) {
-            frame.orientation[place] = Some(turn);
-        }
-    }
-    let copies = [
-        ("RightHand", "RightForeArm"),
-        ("LeftHand", "LeftForeArm"),
-        ("RightFoot", "RightLowerLeg"),
-        ("LeftFoot", "LeftLowerLeg"),
-    ];
-    for (hand, arm) in copies {
-        if let (Some(hand), Some(arm)) = (skeleton.segment(hand), skeleton.segment(arm)) {
-            frame.orientation[hand] = frame.orientation[arm];
-        }
-    }
-    let hips = DVec3::new(phase, 0.2, 0.9);
-    posewire_motion::kinematics::segment_positions(skeleton, hips, &frame.orientation, &mut frame.position);
-    frame.joint_angles.clear();
-    frame.ergonomic_angles.clear();
     complete(&mut frame);
     frame
 }

@@ -1,5 +1,6 @@
 //! The stick figure from the front and from the side.
 
+use super::draw::rule;
 use super::layout::{bottom, top};
 use super::pose;
 use super::stick::Stick;
@@ -124,7 +125,9 @@ impl Picture<'_> {
             .paint(|context| {
                 for [from, to] in &self.stick.bones {
                     let ([x1, y1], [x2, y2]) = (project(*from, side), project(*to, side));
-                    context.draw(&Line::new(x1, y1, x2, y2, self.color));
+                    for aside in [0.0, scale].into_iter().take(if scale < LARGE { 2 } else { 1 }) {
+                        context.draw(&Line::new(x1 + aside, y1, x2 + aside, y2, self.color));
+                    }
                 }
                 if let Some(head) = self.stick.head {
                     let [x, y] = project(head, side);
@@ -148,21 +151,27 @@ fn project(point: DVec3, side: Side) -> [f64; 2] {
     }
 }
 
+/// The ground, with the name of the view and its ends.
 fn draw_label(buffer: &mut Buffer, line: Rect, side: Side) {
     let full = match side {
-        Side::Front => "right ── front ── left",
-        Side::Right => "back ── side ── front",
+        Side::Front => "right  ◂ front ▸  left",
+        Side::Right => "back  ◂ side ▸  front",
     };
     let label = match side {
         _ if width(full) <= line.width => full,
         Side::Front => "R─L",
         Side::Right => "─►",
     };
-    let margin = line.width.saturating_sub(width(label)) / 2;
-    put(buffer, slot(line, 0, margin, line.width), label, faint());
+    rule(buffer, line);
+    let label = format!(" {label} ");
+    let margin = line.width.saturating_sub(width(&label)) / 2;
+    put(buffer, slot(line, 0, margin, line.width), &label, faint());
 }
 
 /// Columns and lines of braille dots, two by four to a cell.
 fn dots(part: Rect) -> (f64, f64) {
     (f64::from(part.width.max(1)) * 2.0, f64::from(part.height.max(1)) * 4.0)
 }
+
+/// With less than so many metres to a dot, bones are two dots wide.
+const LARGE: f64 = 0.025;

@@ -58,7 +58,7 @@ impl Layout {
         let (types, angles, problems) = (
             wanted.types + TITLE,
             angles::lines(wanted.angles, rest.width) + TITLE,
-            wanted.problems + TITLE,
+            wanted.problems.max(1) + TITLE,
         );
         let problems_least = problems.min(PROBLEMS_LEAST);
         if wide && rest.height >= types + angles + problems_least {
@@ -128,7 +128,7 @@ fn right(rest: &mut Rect, columns: u16) -> Rect {
 /// A figure beside the rest needs this many columns in all.
 const WIDE: u16 = BESIDE_FIGURE + FIGURE.0;
 /// The columns of the figure when it stands beside the rest, at least and at most.
-const FIGURE: (u16, u16) = (37, 79);
+const FIGURE: (u16, u16) = (38, 79);
 /// The columns that the types and two columns of angles need.
 const BESIDE_FIGURE: u16 = 82;
 /// A pane's title.

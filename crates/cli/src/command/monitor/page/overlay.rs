@@ -16,13 +16,12 @@ pub(super) fn draw_help(buffer: &mut Buffer, area: Rect, theme: Theme) {
 
 /// Draws what is listened on and, after a while, what to check.
 pub(super) fn draw_silence(buffer: &mut Buffer, area: Rect, view: &View, theme: Theme) {
-    match &view.hint {
-        Some(hint) => draw_box(buffer, area, (" nothing heard ", theme.warn()), hint),
-        None => {
-            let text = format!("listening on {}", view.listening);
-            let margin = area.width.saturating_sub(width(&text)) / 2;
-            put(buffer, slot(area, area.height / 2, margin, area.width), &text, faint());
-        }
+    if let Some(hint) = &view.hint {
+        draw_box(buffer, area, (" nothing heard ", theme.warn()), hint);
+    } else {
+        let text = format!("listening on {}", view.listening);
+        let margin = area.width.saturating_sub(width(&text)) / 2;
+        put(buffer, slot(area, area.height / 2, margin, area.width), &text, faint());
     }
 }
 
@@ -72,7 +71,7 @@ p, space         hold the picture, and go on
 
 ● LIVE   a sample within the last quarter second
 ◐ STALE  none for longer than that
-✖ LOST   none for more than two seconds
+✗ LOST   none for more than two seconds
 ○ WAIT   described, but no sample yet
 
 #        the character's number on the wire; MVN shows one more

@@ -16,11 +16,17 @@ pub(super) const LINES: u16 = 3;
 /// Draws the pelvis and the centre of mass, metres, with the heading and the speed where they are known.
 pub(super) fn draw(buffer: &mut Buffer, area: Rect, character: &Character) {
     let Some(frame) = &character.frame else { return };
+    let label = if area.width < ROOM_FOR_LONG_LABEL {
+        "mass centre"
+    } else {
+        "centre of mass "
+    };
+    let room = label.len();
     let lines = [
-        (format!("{:15}{:>8}{:>8}{:>8} m", "", "x", "y", "z"), faint()),
-        (row("pelvis", pelvis(frame), "not tracked"), Style::new()),
+        (format!("{:room$}{:>8}{:>8}{:>8} m", "", "x", "y", "z"), faint()),
+        (row(("pelvis", room), pelvis(frame), "not tracked"), Style::new()),
         (
-            row("centre of mass", center_of_mass(frame), missing_center(character)),
+            row((label, room), center_of_mass(frame), missing_center(character)),
             Style::new(),
         ),
     ];
@@ -49,10 +55,10 @@ fn forward_of_hips(frame: &Frame) -> Option<DVec3> {
     Some(left.cross(DVec3::Z))
 }
 
-fn row(label: &str, known: Option<(DVec3, String)>, missing: &str) -> String {
+fn row((label, room): (&str, usize), known: Option<(DVec3, String)>, missing: &str) -> String {
     match known {
-        Some((at, more)) => format!("{label:15}{:8.3}{:8.3}{:8.3} m{more}", at.x, at.y, at.z),
-        None => format!("{label:15}{missing}"),
+        Some((at, more)) => format!("{label:room$}{:8.3}{:8.3}{:8.3} m{more}", at.x, at.y, at.z),
+        None => format!("{label:room$}{missing}"),
     }
 }
 
@@ -82,3 +88,5 @@ fn missing_center(character: &Character) -> &'static str {
         "not in this stream (type 24)"
     }
 }
+
+const ROOM_FOR_LONG_LABEL: u16 = 43;

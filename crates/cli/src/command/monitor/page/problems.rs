@@ -7,6 +7,7 @@ use posewire_mxtp::Quirk;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
+use std::fmt::Write;
 
 /// Something that is wrong or unusual.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -211,7 +212,7 @@ fn listed<'a>(counts: impl Iterator<Item = (&'a TypeRow, u64)>) -> String {
     let mut text = String::new();
     for (row, count) in counts {
         let (between, of) = if text.is_empty() { ("", "of type") } else { (", ", "of") };
-        text += &format!("{between}{count} {of} {:02}", row.message_type.number());
+        _ = write!(text, "{between}{count} {of} {:02}", row.message_type.number());
     }
     text
 }
@@ -257,7 +258,7 @@ fn draw_lines<'a>(
 ) {
     for (line, (weight, text)) in (0..area.height).zip(lines) {
         let (mark, style) = match weight {
-            Some(Weight::Bad) => ("✖", theme.bad()),
+            Some(Weight::Bad) => ("✗", theme.bad()),
             Some(Weight::Odd) => ("!", theme.warn()),
             Some(Weight::Note) => ("i", faint()),
             None => ("", Style::new()),
@@ -285,7 +286,7 @@ fn wrap(text: &str, room: usize) -> Vec<String> {
             .filter(|line| line.is_empty() || line.chars().count() + 1 + word.chars().count() <= room);
         match line {
             Some(line) if line.is_empty() => line.push_str(word),
-            Some(line) => *line += &format!(" {word}"),
+            Some(line) => line.extend([" ", word]),
             None => lines.push(word.to_owned()),
         }
     }

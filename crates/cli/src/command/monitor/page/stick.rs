@@ -22,7 +22,7 @@ impl Stick {
     pub(super) fn new(frame: &Frame) -> Option<Self> {
         let body = Body::new(frame)?;
         let mut stick = Self {
-            head_radius: 0.066 * body.height(),
+            head_radius: 0.06 * body.height(),
             ..Self::default()
         };
         for place in 0..frame.subject.skeleton.segments.len() {

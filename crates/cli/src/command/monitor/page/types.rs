@@ -93,7 +93,7 @@ fn name(message_type: MessageType, width: usize) -> &'static str {
 
 const COLUMNS: [Column; 14] = [
     Column::text("ty", (2, 2), 0),
-    Column::text("type", (12, 26), 1),
+    Column::text("type", (12, 18), 1),
     Column::number(("rate", "rate Hz"), (5, 7), 2),
     Column::number(("recvd", "received"), (6, 9), 3),
     Column::number(("miss", "missing"), (5, 7), 4),

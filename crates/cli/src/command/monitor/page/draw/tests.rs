@@ -99,7 +99,7 @@ fn who_is_silent_is_stale_and_then_lost() {
     view.characters[2].age = Duration::from_secs(5);
     assert_shows(
         &picture((80, 24), &view, &Controls::default()),
-        &["● LIVE", "◐ STALE", "✖ LOST", "1 lost"],
+        &["● LIVE", "◐ STALE", "✗ LOST", "1 lost"],
     );
     let controls = Controls {
         selected: Some(2),
@@ -173,7 +173,7 @@ fn a_list_scrolls_to_its_end_and_no_further() {
         scroll: 500,
         ..with(Pane::Angles)
     };
-    assert_shows(&picture((60, 20), &view, &controls), &["Vertical_T8", "PgUp"]);
+    assert_shows(&picture((60, 20), &view, &controls), &["Vertical_T8", "▲"]);
 }
 
 #[test]
