@@ -2,6 +2,7 @@
 
 use posewire_motion::Stamp;
 use std::collections::VecDeque;
+use std::time::Duration;
 
 /// Follows the sample counter of one message type of one character (MV0305 2.4.1.2).
 ///
@@ -59,7 +60,8 @@ pub enum Observation {
 /// Why a counter is taken to have started anew.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ResetKind {
-    /// It went back further than samples can be late: a new session, or a recording that was wound back.
+    /// It went back further than samples can be late, or after half a second of silence: a new session, or a recording
+    /// that was wound back.
     Restart,
     /// It went back a little and has gone on from there: eight known or older samples in a row, and no new one.
     Rewind,
@@ -126,7 +128,7 @@ impl Sequence {
     }
 
     fn backward(&mut self, sample: u32, behind: u32, now: Stamp) -> Observation {
-        if self.is_too_old(behind) {
+        if self.is_too_old(behind) || behind > 0 && now.since(self.pace.newest) > SILENCE {
             return self.reset(ResetKind::Restart, sample, now);
         }
         if self.old.extend(sample, self.tally) {
@@ -345,13 +347,14 @@ const LESSON: usize = 8;
 const LONG_LESSON: usize = 64;
 /// Strides that may be missing whatever the time says.
 const SHORT_GAP: f64 = 16.0;
+/// After so long nothing older is still on its way.
+const SILENCE: Duration = Duration::from_millis(500);
 /// Differences from here on are negative ones.
 const HALF: u32 = 1 << 31;
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::time::Duration;
 
     fn observe(sequence: &mut Sequence, samples: impl IntoIterator<Item = u32>) -> Vec<Observation> {
         let mut now = sequence.pace.newest;
@@ -369,6 +372,16 @@ mod tests {
             late,
             reset,
         }
+    }
+
+    #[test]
+    fn what_goes_back_after_a_silence_is_a_new_session() {
+        let mut sequence = Sequence::new();
+        observe(&mut sequence, 0..30);
+        let later = sequence.pace.newest.after(Duration::from_secs(1));
+        assert_eq!(sequence.observe(29, later), Observation::Duplicate);
+        assert_eq!(sequence.observe(0, later), Observation::Reset(ResetKind::Restart));
+        assert_eq!(sequence.tally(), tally(0, 1, 0, 1));
     }
 
     #[test]

@@ -147,7 +147,10 @@ impl Character {
             self.description.adopt_layout(header);
         }
         self.publish(arrival.events);
-        self.receive(arrival);
+        // A scale is whole with the last datagram of its sequence.
+        if header.counter.is_last() {
+            self.receive(arrival);
+        }
     }
 
     fn pass_on(&mut self, payload: &[u8], arrival: &mut Arrival<'_>) {

@@ -11,7 +11,7 @@ use posewire_motion::Stamp;
 pub struct Counters {
     /// Datagrams that decode.
     pub datagrams: u64,
-    /// Whole messages, duplicates left out.
+    /// Whole messages, duplicates left out; of the scale, whole sequences.
     pub received: u64,
     /// Samples of which nothing came, in strides.
     pub missing: u64,
