@@ -83,7 +83,9 @@ fn cell(name: &str, angle: Option<DVec3>, column: usize) -> (String, Style) {
             ("-".to_owned(), faint())
         };
     };
-    let degrees = |radians: f64| (format!("{:.1}", radians.to_degrees()), Style::new());
+    // Adding zero makes -0.0 a plain 0.0.
+    let tenths = |radians: f64| (radians.to_degrees() * 10.0).round() / 10.0 + 0.0;
+    let degrees = |radians: f64| (format!("{:.1}", tenths(radians)), Style::new());
     match column {
         0 => (name.to_owned(), Style::new()),
         1 => degrees(angle.x),

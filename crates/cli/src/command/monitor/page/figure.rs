@@ -13,7 +13,7 @@ use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
 use ratatui::symbols::Marker;
 use ratatui::widgets::Widget;
-use ratatui::widgets::canvas::{Canvas, Circle, Line};
+use ratatui::widgets::canvas::{Canvas, Circle, Context, Line};
 
 /// Draws where the character is and how it stands.
 pub(super) fn draw(buffer: &mut Buffer, mut area: Rect, character: &Character, theme: Theme) {
@@ -123,23 +123,32 @@ impl Picture<'_> {
             .x_bounds([-half, half])
             .y_bounds([lowest - scale, lowest + scale * (lines - 1.0)])
             .paint(|context| {
-                for [from, to] in &self.stick.bones {
-                    let ([x1, y1], [x2, y2]) = (project(*from, side), project(*to, side));
-                    for aside in [0.0, scale].into_iter().take(if scale < LARGE { 2 } else { 1 }) {
-                        context.draw(&Line::new(x1 + aside, y1, x2 + aside, y2, self.color));
-                    }
+                let wide = scale < LARGE;
+                for bone in &self.stick.bones {
+                    let [from, to] = bone.map(|end| project(end, side));
+                    draw_bone(context, (from, to), wide.then_some(scale), self.color);
                 }
                 if let Some(head) = self.stick.head {
-                    let [x, y] = project(head, side);
+                    let ([x, y], radius) = (project(head, side), self.stick.head_radius);
                     context.draw(&Circle {
                         x,
                         y,
-                        radius: self.stick.head_radius,
+                        radius,
                         color: self.color,
                     });
                 }
             });
         canvas.render(part, buffer);
+    }
+}
+
+/// A line, and a second one a dot beside it if it is to be wide.
+fn draw_bone(context: &mut Context, ([x1, y1], [x2, y2]): ([f64; 2], [f64; 2]), dot: Option<f64>, color: Color) {
+    context.draw(&Line::new(x1, y1, x2, y2, color));
+    if let Some(dot) = dot {
+        let is_steep = (y2 - y1).abs() > (x2 - x1).abs();
+        let (right, up) = if is_steep { (dot, 0.0) } else { (0.0, dot) };
+        context.draw(&Line::new(x1 + right, y1 + up, x2 + right, y2 + up, color));
     }
 }
 

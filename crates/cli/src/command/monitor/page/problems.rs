@@ -16,6 +16,9 @@ pub(super) struct Problem {
     pub(super) text: String,
 }
 
+/// What is counted of a type.
+type Count = fn(&TypeRow) -> u64;
+
 /// How bad a problem is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Weight {
@@ -105,7 +108,7 @@ fn of_stream(view: &View) -> Vec<Problem> {
 
 fn of_types(types: &[TypeRow]) -> Vec<Problem> {
     use Weight::{Bad, Note, Odd};
-    let kinds: [(Weight, &str, fn(&TypeRow) -> u64, &str); 7] = [
+    let kinds: [(Weight, &str, Count, &str); 7] = [
         (
             Bad,
             "missing",

@@ -143,3 +143,77 @@ fn troubles(statistics: &Statistics) -> Troubles {
 }
 
 const QUIET_AFTER: Duration = Duration::from_secs(3);
+
+#[cfg(test)]
+mod tests {
+    use super::super::example;
+    use super::super::view::State;
+    use super::*;
+    use posewire::stop::Stop;
+    use posewire::{Item, Sink};
+    use posewire_motion::Stamp;
+
+    fn board() -> Board {
+        Board::new("mxtp://127.0.0.1:9763".to_owned(), None, Stop::new())
+    }
+
+    fn sample(id: u32) -> Item {
+        let frame = Arc::new(example::standing(id, "Ada"));
+        Item::Frame { frame, due: None }
+    }
+
+    fn statistics(seconds: u64, datagrams: u64, bytes: u64) -> Item {
+        Item::Statistics(Arc::new(Statistics {
+            at: Stamp(0),
+            elapsed: Duration::from_secs(seconds),
+            ended: false,
+            datagrams,
+            bytes,
+            malformed: 0,
+            last_malformed: None,
+            skipped_bytes: 0,
+            kernel_dropped: 0,
+            characters_refused: 0,
+            subjects: Vec::new(),
+        }))
+    }
+
+    #[test]
+    fn a_sample_ages_until_the_next_one_comes() {
+        let (board, start) = (board(), Instant::now());
+        let (mut sink, mut watch) = (board.sink(), Watch::new(start));
+        let mut state_after = |milliseconds| {
+            let view = watch.look(&board, start + Duration::from_millis(milliseconds));
+            view.characters.first().map(Character::state)
+        };
+        assert_eq!(state_after(0), None);
+        sink.accept(&sample(3)).unwrap();
+        assert_eq!(state_after(10), Some(State::Live));
+        assert_eq!(state_after(300), Some(State::Stale));
+        assert_eq!(state_after(2_100), Some(State::Lost));
+        sink.accept(&sample(3)).unwrap();
+        assert_eq!(state_after(2_200), Some(State::Live));
+    }
+
+    #[test]
+    fn speed_is_what_came_between_two_statistics() {
+        let (board, start) = (board(), Instant::now());
+        let (mut sink, mut watch) = (board.sink(), Watch::new(start));
+        let mut speed = |item: &Item| {
+            sink.accept(item).unwrap();
+            watch.look(&board, start).bytes_per_second
+        };
+        assert!((speed(&statistics(1, 10, 1_000)) - 1_000.0).abs() < 1e-9);
+        assert!((speed(&statistics(3, 50, 9_000)) - 4_000.0).abs() < 1e-9);
+        assert!((speed(&sample(0)) - 4_000.0).abs() < 1e-9, "no news, no change");
+    }
+
+    #[test]
+    fn a_quiet_board_is_explained_after_three_seconds() {
+        let (board, start) = (board(), Instant::now());
+        let mut watch = Watch::new(start);
+        assert_eq!(watch.look(&board, start + Duration::from_secs(2)).hint, None);
+        let hint = watch.look(&board, start + Duration::from_secs(4)).hint;
+        assert!(hint.is_some_and(|hint| hint.contains("mxtp://127.0.0.1:9763")));
+    }
+}

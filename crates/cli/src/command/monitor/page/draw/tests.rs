@@ -72,10 +72,9 @@ fn a_large_terminal_shows_types_angles_and_figure_at_once() {
             &picture,
             &["datagram types", "joint angles", "figure", "problems", "none"],
         );
-        assert_shows(
-            &picture,
-            &["jL5S1", "jLeftBallFoot", "Vertical_T8", "front", "side", "⣀"],
-        );
+        assert_shows(&picture, &["jL5S1", "jLeftBallFoot", "Vertical_T8", "front", "side"]);
+        let has_dots = picture.contains(|symbol| ('⠁'..='⣿').contains(&symbol));
+        assert!(has_dots, "{picture}");
         assert!(!picture.contains("Tab"), "there is nothing to switch");
     }
 }
