@@ -3,17 +3,29 @@
 //! This crate is the only place of the project with sockets, files, threads and clocks; the
 //! protocol crates below it are pure.
 //!
+//! A [`Source`] feeds any number of [`Sink`]s in a [`Session`], each on a thread of its own behind a bounded queue:
+//!
 //! ```
-//! use posewire::endpoint::Endpoint;
+//! use posewire::source::PlaybackOptions;
+//! use posewire::stop::Stop;
+//! use posewire::{Item, Session, Sink, Source};
+//! use std::time::Duration;
 //!
-//! let endpoint: Endpoint = "mxtp://239.255.42.99?interface=eth0".parse()?;
-//! assert_eq!(endpoint.to_string(), "mxtp://239.255.42.99:9763?interface=eth0");
+//! struct Hips;
 //!
-//! let error = "mxtp://localhost?tll=4".parse::<Endpoint>().unwrap_err();
-//! assert_eq!(
-//!     error.to_string(),
-//!     "mxtp://localhost?tll=4: unknown option \"tll\", expected interface or ttl"
-//! );
+//! impl Sink for Hips {
+//!     fn accept(&mut self, item: &Item) -> posewire::Result<()> {
+//!         if let Item::Frame { frame, .. } = item {
+//!             println!("{} {:?}", frame.subject.name, frame.position[0]);
+//!         }
+//!         Ok(())
+//!     }
+//! }
+//!
+//! let options = PlaybackOptions { duration: Some(Duration::from_millis(50)), ..PlaybackOptions::default() };
+//! let source = Source::open(&"synthetic:walk?people=2&rate=240".parse()?, &options)?;
+//! let outcome = Session::start(source, vec![Box::new(Hips)], Stop::new()).wait()?;
+//! assert_eq!(outcome.dropped, 0);
 //! # Ok::<(), posewire::Error>(())
 //! ```
 
@@ -36,3 +48,7 @@ pub use item::{Item, Notice};
 pub use session::{Outcome, Session};
 pub use sink::Sink;
 pub use source::Source;
+
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;
