@@ -192,7 +192,7 @@ impl Error {
     }
 
     /// The failure to open or read a file.
-    pub(crate) fn read(path: &Path, error: &io::Error) -> Self {
+    pub fn read(path: &Path, error: &io::Error) -> Self {
         Self::Read {
             path: path.to_owned(),
             kind: error.kind(),
@@ -201,7 +201,7 @@ impl Error {
     }
 
     /// What is wrong with a take.
-    pub(crate) fn take(path: &Path, error: posewire_mvnx::Error) -> Self {
+    pub fn take(path: &Path, error: posewire_mvnx::Error) -> Self {
         Self::Take {
             path: path.to_owned(),
             error,

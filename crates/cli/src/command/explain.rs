@@ -1,14 +1,13 @@
 //! `posewire explain`: the bytes of datagrams, field by field.
 
-pub(super) mod input;
+mod input;
 mod json;
-pub(super) mod plain;
 mod split;
 mod text;
 
 use super::End;
 use crate::cli::Explain;
-use anyhow::anyhow;
+use crate::error::Failure;
 use posewire_mxtp::{Explanation, Header, explain};
 use split::{Part, Parts};
 use std::io::{self, BufWriter, Write};
@@ -21,7 +20,7 @@ pub(super) fn run(arguments: &Explain) -> anyhow::Result<End> {
     if tally.decoded > 0 {
         return Ok(End::Done);
     }
-    Err(nothing_decoded(&input::name(&arguments.file), &bytes, &tally))
+    Err(nothing_decoded(&input::name(&arguments.file), &bytes, &tally).into())
 }
 
 /// A datagram of the input, explained.
@@ -85,14 +84,22 @@ fn write_parts(bytes: &[u8], json: bool, out: &mut impl Write) -> anyhow::Result
     Ok(tally)
 }
 
-fn nothing_decoded(name: &str, bytes: &[u8], tally: &Tally) -> anyhow::Error {
-    match tally.malformed {
+fn nothing_decoded(name: &str, bytes: &[u8], tally: &Tally) -> Failure {
+    let problem = match tally.malformed {
         0 => {
             let beginning = bytes[..bytes.len().min(8)].escape_ascii();
-            anyhow!("{name}: expected datagrams, which begin with \"MXTP\", found \"{beginning}\" and no datagram")
+            format!("{name}: expected datagrams, which begin with \"MXTP\", found \"{beginning}\" and no datagram")
         }
-        1 => anyhow!("{name}: the datagram is malformed and was explained as far as it goes"),
-        count => anyhow!("{name}: all {count} datagrams are malformed and were explained as far as they go"),
+        1 => format!("{name}: the datagram is malformed and was explained as far as it goes"),
+        count => format!("{name}: all {count} datagrams are malformed and were explained as far as they go"),
+    };
+    let help = match tally.malformed {
+        0 => "give the payload of UDP datagrams, or a TCP stream, as raw bytes",
+        _ => "the error above names the place; check how the bytes were captured",
+    };
+    Failure {
+        problem,
+        help: help.to_owned(),
     }
 }
 

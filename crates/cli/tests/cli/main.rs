@@ -1,5 +1,10 @@
 //! Runs the program as its users do.
 
+mod demo;
 mod explain;
 mod inspect;
+mod monitor;
 mod program;
+mod refusals;
+mod stream;
+mod takes;

@@ -1,8 +1,9 @@
 //! The program as a child process, and where its test data is.
 
-use std::io::Write;
+use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Child, ChildStderr, Command, Stdio};
+use std::thread::{self, JoinHandle};
 
 /// How the program ended and what it said.
 #[derive(Debug, PartialEq, Eq)]
@@ -30,6 +31,76 @@ pub(crate) fn posewire(folder: &Path, arguments: &[&str], input: &[u8]) -> Ended
         out: String::from_utf8(output.stdout).unwrap(),
         err: String::from_utf8(output.stderr).unwrap(),
     }
+}
+
+/// `posewire monitor`, listening.
+pub(crate) struct Monitor {
+    pub(crate) endpoint: String,
+    child: Child,
+    out: JoinHandle<String>,
+    err: BufReader<ChildStderr>,
+}
+
+impl Monitor {
+    /// Starts it with these arguments and waits until it listens.
+    pub(crate) fn start(arguments: &[&str]) -> Self {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_posewire"))
+            .arg("monitor")
+            .args(arguments)
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut err = BufReader::new(child.stderr.take().unwrap());
+        let mut out = child.stdout.take().unwrap();
+        let out = thread::spawn(move || {
+            let mut text = String::new();
+            out.read_to_string(&mut text).unwrap();
+            text
+        });
+        let mut line = String::new();
+        err.read_line(&mut line).unwrap();
+        let endpoint = line.strip_prefix("listening on ").unwrap_or_else(|| panic!("{line}"));
+        Self {
+            endpoint: endpoint.trim_end().to_owned(),
+            child,
+            out,
+            err,
+        }
+    }
+
+    /// Asks it to end, as Ctrl-C does.
+    #[cfg(unix)]
+    pub(crate) fn interrupt(&self) {
+        let process = self.child.id().to_string();
+        assert!(
+            Command::new("kill")
+                .args(["-INT", &process])
+                .status()
+                .unwrap()
+                .success()
+        );
+    }
+
+    /// Waits until it has ended.
+    pub(crate) fn end(mut self) -> Ended {
+        let mut err = String::new();
+        self.err.read_to_string(&mut err).unwrap();
+        Ended {
+            code: self.child.wait().unwrap().code(),
+            out: self.out.join().unwrap(),
+            err,
+        }
+    }
+}
+
+/// The JSON objects of an output that are of this kind.
+pub(crate) fn objects(out: &str, kind: &str) -> Vec<serde_json::Value> {
+    let objects = out.lines().map(|line| serde_json::from_str(line).unwrap());
+    objects
+        .filter(|object: &serde_json::Value| object["kind"] == kind)
+        .collect()
 }
 
 /// The project's own datagrams.

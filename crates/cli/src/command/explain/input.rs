@@ -15,7 +15,7 @@ pub(super) fn read(path: &Path) -> anyhow::Result<Vec<u8>> {
     } else {
         File::open(path).and_then(read_bounded)
     };
-    let bytes = bytes.map_err(|error| unreadable(path, &error))?;
+    let bytes = bytes.map_err(|error| posewire::Error::read(path, &error))?;
     if bytes.len() > LIMIT {
         return Err(too_much(path).into());
     }
@@ -40,17 +40,6 @@ fn read_bounded(from: impl Read) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     from.take(LIMIT as u64 + 1).read_to_end(&mut bytes)?;
     Ok(bytes)
-}
-
-/// The failure to open or read a file.
-pub(in crate::command) fn unreadable(path: &Path, error: &io::Error) -> posewire::Error {
-    let text = error.to_string();
-    let reason = text.split(" (os error").next().unwrap_or_default().to_lowercase();
-    posewire::Error::Read {
-        path: path.to_owned(),
-        kind: error.kind(),
-        reason,
-    }
 }
 
 fn too_much(path: &Path) -> Usage {

@@ -1,7 +1,7 @@
 //! Explanations for people: a summary, a table of the fields, what is unusual.
 
-use super::plain::{cut, grouped, plural, printable};
 use super::{Explained, Tally};
+use crate::plain::{cut, grouped, plural, printable};
 use posewire_mxtp::{Datagram, Field, Value};
 use std::io::{self, Write};
 

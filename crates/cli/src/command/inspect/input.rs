@@ -1,7 +1,7 @@
 //! A take's file, and what to say when it is something else.
 
-use crate::command::explain::{input::unreadable, plain::plural};
 use crate::error::Usage;
+use crate::plain::plural;
 use posewire::endpoint::Endpoint;
 use posewire_motion::Frame;
 use posewire_mvnx::Reader;
@@ -25,8 +25,11 @@ impl TakeFile {
     /// Opens a file and reads what stands before its frames.
     pub(super) fn open(path: &Path, salvage: bool) -> anyhow::Result<Self> {
         let wrong_name = check_name(path)?;
-        let file = File::open(path).map_err(|error| unreadable(path, &error))?;
-        let size = file.metadata().map_err(|error| unreadable(path, &error))?.len();
+        let file = File::open(path).map_err(|error| posewire::Error::read(path, &error))?;
+        let size = file
+            .metadata()
+            .map_err(|error| posewire::Error::read(path, &error))?
+            .len();
         let read = Arc::new(AtomicU64::new(0));
         let mut bytes = BufReader::with_capacity(
             BUFFER,
@@ -35,14 +38,14 @@ impl TakeFile {
                 read: Arc::clone(&read),
             },
         );
-        let beginning = bytes.fill_buf().map_err(|error| unreadable(path, &error))?;
+        let beginning = bytes.fill_buf().map_err(|error| posewire::Error::read(path, &error))?;
         refuse_datagrams(path, beginning)?;
         let compressed = beginning.starts_with(&GZIP);
         let may_be_take = compressed || is_markup(beginning);
         if let Some(error) = wrong_name.filter(|_| !may_be_take) {
             return Err(error.into());
         }
-        let reader = Reader::new(bytes).map_err(|error| take_error(path, error))?;
+        let reader = Reader::new(bytes).map_err(|error| posewire::Error::take(path, error))?;
         Ok(Self {
             path: path.to_owned(),
             size,
@@ -55,7 +58,7 @@ impl TakeFile {
     /// The next frame, `None` at the end.
     pub(super) fn next_frame(&mut self) -> posewire::Result<Option<Frame>> {
         let frame = self.reader.next().transpose();
-        frame.map_err(|error| take_error(&self.path, error))
+        frame.map_err(|error| posewire::Error::take(&self.path, error))
     }
 
     /// How far it was read, in one line.
@@ -116,13 +119,6 @@ fn refuse_datagrams(path: &Path, beginning: &[u8]) -> Result<(), Usage> {
 fn is_markup(beginning: &[u8]) -> bool {
     let text = beginning.strip_prefix(BYTE_ORDER_MARK).unwrap_or(beginning);
     text.trim_ascii_start().starts_with(b"<")
-}
-
-fn take_error(path: &Path, error: posewire_mvnx::Error) -> posewire::Error {
-    posewire::Error::Take {
-        path: path.to_owned(),
-        error,
-    }
 }
 
 const BUFFER: usize = 256 * 1024;

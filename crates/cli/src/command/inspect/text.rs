@@ -2,7 +2,7 @@
 
 use super::contents::{Contents, SampleRecord, SectionRecord};
 use super::sections;
-use crate::command::explain::plain::{cut, grouped, plural, printable};
+use crate::plain::{cut, grouped, plural, printable};
 use std::io::{self, Write};
 
 pub(super) fn write(contents: &Contents, out: &mut impl Write) -> io::Result<()> {

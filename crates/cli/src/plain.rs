@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 /// The text with its control characters escaped: what a file or a stream says must not steer the terminal.
-pub(in crate::command) fn printable(text: &str) -> String {
+pub(crate) fn printable(text: &str) -> String {
     let mut printed = String::with_capacity(text.len());
     for character in text.chars() {
         if character.is_control() {
@@ -16,7 +16,7 @@ pub(in crate::command) fn printable(text: &str) -> String {
 }
 
 /// The text, its end cut off when it has more than so many characters.
-pub(in crate::command) fn cut(text: &str, limit: usize) -> String {
+pub(crate) fn cut(text: &str, limit: usize) -> String {
     match text.char_indices().nth(limit) {
         None => text.to_owned(),
         Some(_) => text.chars().take(limit - 1).chain(['…']).collect(),
@@ -24,13 +24,13 @@ pub(in crate::command) fn cut(text: &str, limit: usize) -> String {
 }
 
 /// A count and its word: `1 byte`, `1,024 bytes`.
-pub(in crate::command) fn plural(count: u64, word: &str) -> String {
+pub(crate) fn plural(count: u64, word: &str) -> String {
     let ending = if count == 1 { "" } else { "s" };
     format!("{} {word}{ending}", grouped(count))
 }
 
 /// A number with a comma before every three digits: `1,048,576`.
-pub(in crate::command) fn grouped(number: u64) -> String {
+pub(crate) fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::new();
     for (place, digit) in digits.chars().enumerate() {

@@ -1,0 +1,211 @@
+//! The command line: verbs, options and the words that explain them.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// Motion capture on the wire and off it again, with no vendor SDK.
+#[derive(Debug, Parser)]
+#[command(name = "posewire", version, propagate_version = true, max_term_width = 100, after_help = ENDPOINTS)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+const ENDPOINTS: &str = "\
+Where motion comes from and goes to:
+  mxtp://HOST[:9763]        MXTP over UDP; to receive, the address to bind: mxtp://0.0.0.0:9763
+                            a multicast group is joined; ?interface=eth0 says where, ?ttl=4 how far
+  mxtp+tcp://HOST[:9763]    MXTP over TCP; stream connects and monitor listens, as with MVN
+                            ?mode=listen and ?mode=connect turn that round
+  synthetic:walk            people made up on the spot: ?people=2&rate=240&props=1&fingers=true
+  take.mvnx, take.mvnx.gz   a take exported from MVN
+
+Exit codes: 0 done, 1 failed, 2 wrong arguments, 3 done but data was lost on this side.
+
+Try it without a suit:  posewire demo";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Stream(Stream),
+    Monitor(Monitor),
+    Inspect(Inspect),
+    Explain(Explain),
+    Demo(Demo),
+}
+
+/// Send a take, a walker or a live stream as MVN's Network Streamer would.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  posewire stream take.mvnx                                  to this machine, UDP port 9763
+  posewire stream take.mvnx --to mxtp://192.168.1.20 --loop
+  posewire stream take.mvnx --to mxtp+tcp://robot --types all
+  posewire stream synthetic:walk?people=3 --to mxtp://239.255.42.99?interface=eth0
+  posewire stream mxtp://0.0.0.0 --to mxtp://10.0.0.5 --to mxtp+tcp://10.0.0.6   pass on a live stream")]
+pub(crate) struct Stream {
+    /// What to send: a take, synthetic:walk, or a live stream to pass on.
+    pub(crate) source: String,
+
+    /// Where to send it; may be given many times.
+    #[arg(long, value_name = "URL", default_value = "mxtp://127.0.0.1:9763")]
+    pub(crate) to: Vec<String>,
+
+    /// Datagram types, by number and with commas, or `all`.
+    ///
+    /// 01 Euler, 02 quaternion, 03 points, 05 Unity, 12 meta, 13 scale, 20 joint angles, 21 linear and 22 angular
+    /// kinematics, 23 trackers, 24 centre of mass, 25 timecode. What a take lacks is computed where that is possible.
+    #[arg(long, value_name = "TYPES", default_value = "02,12,13,20,24,25")]
+    pub(crate) types: String,
+
+    #[command(flatten)]
+    pub(crate) playback: Playback,
+
+    /// The number of the first character, from 0; MVN shows it plus one.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) character: u8,
+
+    /// A name instead of the subject's own.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) name: Option<String>,
+
+    /// The revision of the header: N is MVN 2019 and later, J what was before.
+    #[arg(long, value_enum, ignore_case = true, default_value = "n")]
+    pub(crate) revision: Revision,
+
+    /// Split pose data into datagrams of at most so many bytes. MVN does not, and some receivers cannot take it.
+    #[arg(long, value_name = "BYTES", value_parser = clap::value_parser!(u32).range(100..=65_507))]
+    pub(crate) split: Option<u32>,
+
+    /// Print the numbers at the end as one JSON object.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// How a file or the walker is played.
+#[derive(Debug, Args)]
+pub(crate) struct Playback {
+    /// Send only so many samples a second; they keep their own sample numbers.
+    #[arg(long, value_name = "HZ")]
+    pub(crate) rate: Option<f64>,
+
+    /// Play so many times as fast as recorded.
+    #[arg(long, value_name = "X", default_value_t = 1.0)]
+    pub(crate) speed: f64,
+
+    /// Begin again at the end; sample numbers go on.
+    #[arg(long = "loop")]
+    pub(crate) looped: bool,
+
+    /// Stop after so many seconds.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(crate) duration: Option<Duration>,
+
+    /// Use a damaged file up to the damage.
+    #[arg(long)]
+    pub(crate) salvage: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Revision {
+    N,
+    J,
+}
+
+/// Receive a stream, check it and show it.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  posewire monitor                                   whatever arrives on UDP port 9763
+  posewire monitor mxtp+tcp://0.0.0.0                let MVN connect over TCP
+  posewire monitor mxtp://239.255.42.99?interface=eth0
+  posewire monitor --json --frames --count 240 > frames.jsonl
+
+In MVN: Options > Preferences > Network Streamer, add this machine's address with port 9763.")]
+pub(crate) struct Monitor {
+    /// Where to listen.
+    #[arg(default_value = "mxtp://0.0.0.0:9763")]
+    pub(crate) url: String,
+
+    /// Print JSON: one object a second for each character and datagram type.
+    #[arg(long)]
+    pub(crate) json: bool,
+
+    /// With --json, also one object for each sample, in metres, radians and seconds, Z up.
+    #[arg(long, requires = "json")]
+    pub(crate) frames: bool,
+
+    /// Print a table a second instead of the live page, as when the output is no terminal.
+    #[arg(long)]
+    pub(crate) plain: bool,
+
+    /// Stop after so many seconds.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(crate) duration: Option<Duration>,
+
+    /// Stop after so many samples, of all characters together.
+    #[arg(long, value_name = "N")]
+    pub(crate) count: Option<u64>,
+}
+
+/// Say what a take holds.
+#[derive(Debug, Args)]
+pub(crate) struct Inspect {
+    /// An .mvnx or .mvnx.gz file.
+    pub(crate) file: PathBuf,
+
+    /// Print one JSON object.
+    #[arg(long)]
+    pub(crate) json: bool,
+
+    /// Use a damaged file up to the damage.
+    #[arg(long)]
+    pub(crate) salvage: bool,
+}
+
+/// Explain the bytes of MXTP datagrams, field by field.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+The file holds one datagram, or several back to back as TCP carries them.
+
+Examples:
+  posewire explain packet.bin
+  xxd -r -p packet.hex | posewire explain -")]
+pub(crate) struct Explain {
+    /// A file of raw bytes; - is the standard input.
+    pub(crate) file: PathBuf,
+
+    /// Print JSON, one object for each datagram.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// See it work: people walk, are streamed over the loopback and monitored.
+#[derive(Debug, Args)]
+pub(crate) struct Demo {
+    /// How many people walk, 1 to 64.
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u8).range(1..=64))]
+    pub(crate) people: u8,
+
+    /// End by itself after so many seconds and print the statistics.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(crate) duration: Option<Duration>,
+
+    /// Print JSON, as monitor does.
+    #[arg(long)]
+    pub(crate) json: bool,
+
+    /// Print a table a second instead of the live page, as when the output is no terminal.
+    #[arg(long)]
+    pub(crate) plain: bool,
+}
+
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text
+        .parse()
+        .map_err(|_| "expected a number of seconds, as in 2.5".to_owned())?;
+    match Duration::try_from_secs_f64(seconds) {
+        Ok(duration) if !duration.is_zero() => Ok(duration),
+        _ => Err("expected more than 0 seconds".to_owned()),
+    }
+}

@@ -1,0 +1,43 @@
+//! The verbs, one file each.
+
+mod demo;
+mod explain;
+mod inspect;
+mod monitor;
+mod stream;
+
+use crate::cli::Command;
+use std::process::ExitCode;
+
+/// How a verb ended that did not fail.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum End {
+    /// Everything was done.
+    Done,
+    /// It was done, but data was lost on this side.
+    LostData,
+}
+
+impl End {
+    /// What to end with when `lost` pieces of data were lost.
+    pub(crate) fn with_lost(lost: u64) -> Self {
+        if lost == 0 { Self::Done } else { Self::LostData }
+    }
+
+    pub(crate) fn exit_code(self) -> ExitCode {
+        ExitCode::from(match self {
+            Self::Done => 0,
+            Self::LostData => 3,
+        })
+    }
+}
+
+pub(crate) fn run(command: Command) -> anyhow::Result<End> {
+    match command {
+        Command::Stream(arguments) => stream::run(&arguments),
+        Command::Monitor(arguments) => monitor::run(&arguments),
+        Command::Inspect(arguments) => inspect::run(&arguments),
+        Command::Explain(arguments) => explain::run(&arguments),
+        Command::Demo(arguments) => demo::run(&arguments),
+    }
+}

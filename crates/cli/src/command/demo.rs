@@ -1,0 +1,40 @@
+//! `posewire demo`: walkers, streamed over the loopback and monitored.
+
+use super::End;
+use super::monitor::{self, View};
+use crate::cli::Demo;
+use crate::context::{self, say};
+use posewire::endpoint::{Endpoint, Host, UdpAddress, Walk};
+use posewire::sink::{MxtpSink, MxtpSinkOptions};
+use posewire::source::PlaybackOptions;
+use posewire::{Session, Source};
+
+pub(super) fn run(arguments: &Demo) -> anyhow::Result<End> {
+    let stop = context::stop_on_interrupt()?;
+    let loopback = Host::Address(std::net::Ipv4Addr::LOCALHOST.into());
+    let receiving = Endpoint::MxtpUdp(UdpAddress::new(loopback, 0));
+    let monitored = Source::open(&receiving, &PlaybackOptions::default())?;
+
+    let walk = Endpoint::Synthetic(Walk {
+        people: arguments.people,
+        ..Walk::default()
+    });
+    let walkers = Source::open(&walk, &PlaybackOptions::default())?;
+    let sink = MxtpSink::open(&[monitored.endpoint().clone()], MxtpSinkOptions::default())?;
+    let progress = sink.progress();
+    say(format_args!("{walk} is streamed to {}", monitored.endpoint()));
+
+    context::stop_after(&stop, arguments.duration);
+    let streaming = Session::start(walkers, vec![Box::new(sink)], stop.clone());
+    let end = monitor::show(
+        monitored,
+        View::choose(arguments.json, false, arguments.plain),
+        None,
+        &stop,
+    );
+    stop.stop();
+    streaming.wait()?;
+    let progress = progress.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    say(crate::render::stream_summary(&progress));
+    end
+}

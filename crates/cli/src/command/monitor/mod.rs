@@ -1,0 +1,105 @@
+//! `posewire monitor`: receive a stream, check it and show it.
+
+mod board;
+mod page;
+mod print;
+
+use super::End;
+use crate::cli::Monitor;
+use crate::context::{self, say};
+use board::Board;
+use posewire::endpoint::Endpoint;
+use posewire::source::PlaybackOptions;
+use posewire::stop::Stop;
+use posewire::{Session, Sink, Source};
+use print::{Format, Printer};
+use std::time::Duration;
+
+pub(super) fn run(arguments: &Monitor) -> anyhow::Result<End> {
+    let stop = context::stop_on_interrupt()?;
+    let endpoint: Endpoint = arguments.url.parse()?;
+    let source = Source::open(&endpoint, &PlaybackOptions::default())?;
+    context::stop_after(&stop, arguments.duration);
+    let view = View::choose(arguments.json, arguments.frames, arguments.plain);
+    show(source, view, arguments.count, &stop)
+}
+
+/// How a stream is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum View {
+    /// The live page.
+    Page,
+    /// Printed a second at a time.
+    Print(Format),
+}
+
+impl View {
+    pub(super) fn choose(json: bool, frames: bool, plain: bool) -> Self {
+        if json {
+            Self::Print(Format::Json { frames })
+        } else if plain || !context::has_terminal() {
+            Self::Print(Format::Plain)
+        } else {
+            Self::Page
+        }
+    }
+}
+
+/// Shows a stream until it ends, `count` samples have come or `stop` is set.
+pub(super) fn show(source: Source, view: View, count: Option<u64>, stop: &Stop) -> anyhow::Result<End> {
+    let listening = source.endpoint().to_string();
+    let board = Board::new(listening, count, stop.clone());
+    let watched = board.clone();
+    let mut sinks: Vec<Box<dyn Sink>> = vec![Box::new(board.sink())];
+    match view {
+        View::Print(format) => {
+            say(format_args!("listening on {}", board.listening()));
+            sinks.push(Box::new(Printer::new(format, count)));
+            let session = Session::start(source, sinks, stop.clone());
+            warn_when_nothing_comes(&watched, &session, stop);
+            finish(session, &watched, view)
+        }
+        View::Page => {
+            let session = Session::start(source, sinks, stop.clone());
+            let shown = page::run(&watched, stop);
+            stop.stop();
+            let end = finish(session, &watched, view)?;
+            shown.map(|()| end)
+        }
+    }
+}
+
+fn finish(session: Session, board: &Board, view: View) -> anyhow::Result<End> {
+    let outcome = session.wait()?;
+    let last = board.statistics();
+    if let (View::Page, Some(last)) = (view, &last) {
+        print::print_plain(last)?;
+    }
+    if outcome.dropped > 0 {
+        say(format_args!(
+            "{} items were dropped here: the output was slower than the stream",
+            outcome.dropped
+        ));
+    }
+    Ok(End::with_lost(
+        outcome.dropped + last.map_or(0, |last| last.kernel_dropped),
+    ))
+}
+
+/// Says once what to check when nothing has come for three seconds.
+fn warn_when_nothing_comes(board: &Board, session: &Session, stop: &Stop) {
+    let mut quiet = true;
+    let mut waited = Duration::ZERO;
+    while session.is_running() && !stop.wait(LOOK_EVERY) {
+        waited += LOOK_EVERY;
+        if quiet && waited >= QUIET_AFTER {
+            quiet = false;
+            if !board.has_heard() {
+                say(board.hint());
+            }
+        }
+    }
+}
+
+const LOOK_EVERY: Duration = Duration::from_millis(50);
+const QUIET_AFTER: Duration = Duration::from_secs(3);

@@ -1,0 +1,126 @@
+//! `posewire stream`: a source to MXTP targets.
+
+use super::End;
+use crate::cli::{Playback, Revision, Stream};
+use crate::context::{self, Teller, end_progress, say, show_progress};
+use crate::error::Usage;
+use crate::{json, render};
+use posewire::endpoint::Endpoint;
+use posewire::sink::{MxtpSink, MxtpSinkOptions, Progress};
+use posewire::source::{PlaybackOptions, Preview};
+use posewire::{Session, Source};
+use posewire_mxtp::MessageType;
+use posewire_mxtp::motion::{MessageTypes, lacks};
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
+
+pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
+    let stop = context::stop_on_interrupt()?;
+    let from: Endpoint = arguments.source.parse()?;
+    let targets = arguments
+        .to
+        .iter()
+        .map(|url| url.parse())
+        .collect::<posewire::Result<Vec<Endpoint>>>()?;
+    let source = Source::open(&from, &playback_options(&arguments.playback))?;
+    let types = choose_types(&arguments.types, source.preview())?;
+    if source.is_live() {
+        context::stop_after(&stop, arguments.playback.duration);
+    }
+    let options = MxtpSinkOptions {
+        types,
+        revision: match arguments.revision {
+            Revision::N => posewire_mxtp::Revision::N,
+            Revision::J => posewire_mxtp::Revision::J,
+        },
+        split: arguments.split.map(|bytes| bytes as usize),
+        character: arguments.character,
+        name: arguments.name.clone(),
+    };
+    let sink = MxtpSink::open(&targets, options.clone())?;
+    let progress = sink.progress();
+    announce(&source, &options, &read(&progress));
+    if !source.is_live() && !sink.is_ready() {
+        say("waiting for somebody to connect");
+        sink.wait_until_ready(&stop);
+    }
+    let session = Session::start(source, vec![Box::new(sink), Box::new(Teller)], stop.clone());
+    while session.is_running() && !stop.wait(Duration::from_millis(200)) {
+        show_progress(render::progress_line(&read(&progress)));
+    }
+    let outcome = session.wait();
+    end_progress();
+    let progress = read(&progress);
+    if arguments.json {
+        json::print(&json::StreamRecord::new(&progress))?;
+    } else {
+        say(render::stream_summary(&progress));
+    }
+    Ok(End::with_lost(outcome?.dropped + progress.lost()))
+}
+
+pub(super) fn playback_options(arguments: &Playback) -> PlaybackOptions {
+    PlaybackOptions {
+        rate_hz: arguments.rate,
+        speed: arguments.speed,
+        looped: arguments.looped,
+        duration: arguments.duration,
+        salvage: arguments.salvage,
+    }
+}
+
+fn read(progress: &Mutex<Progress>) -> Progress {
+    progress.lock().unwrap_or_else(PoisonError::into_inner).clone()
+}
+
+fn announce(source: &Source, options: &MxtpSinkOptions, progress: &Progress) {
+    let who = source.preview().map_or_else(String::new, render::who);
+    say(format_args!(
+        "streaming {}{who}, types {}",
+        source.endpoint(),
+        options.types
+    ));
+    for target in &progress.targets {
+        say(format_args!("  to {}", target.endpoint));
+    }
+}
+
+/// The types asked for. `all` leaves out what the source cannot give and says so; a type asked for by number is refused
+/// when the source cannot give it.
+fn choose_types(text: &str, preview: Option<&Preview>) -> anyhow::Result<MessageTypes> {
+    let wanted = parse_types(text)?;
+    let mut types = MessageTypes::NONE;
+    for message_type in wanted.iter() {
+        let why = preview.and_then(|preview| preview.first.iter().find_map(|frame| lacks(frame, message_type)));
+        match why {
+            None => types = types.with(message_type),
+            Some(why) if text == "all" => say(format_args!("leaving out {}: it has {why}", describe(message_type))),
+            Some(why) => return Err(cannot_give(message_type, why)),
+        }
+    }
+    Ok(types)
+}
+
+fn describe(message_type: MessageType) -> String {
+    format!("type {message_type} ({})", message_type.name())
+}
+
+fn cannot_give(message_type: MessageType, why: &str) -> anyhow::Error {
+    let problem = format!("cannot send {}: the source has {why}", describe(message_type));
+    let help = format!("leave {message_type} out of --types, or use --types all to send whatever there is");
+    Usage { problem, help }.into()
+}
+
+fn parse_types(text: &str) -> Result<MessageTypes, Usage> {
+    let types = text.parse().unwrap_or(MessageTypes::NONE);
+    let unknown = types
+        .iter()
+        .any(|message_type| !MessageTypes::ALL.contains(message_type));
+    if types.is_empty() || unknown {
+        return Err(Usage {
+            problem: format!("expected datagram types with two digits and commas as --types, found {text:?}"),
+            help: format!("use all, or some of {}", MessageTypes::ALL),
+        });
+    }
+    Ok(types)
+}

@@ -1,0 +1,70 @@
+//! What every verb needs of its surroundings: the wish to stop, the terminal, people to talk to.
+
+use posewire::stop::Stop;
+use posewire::{Item, Result, Sink};
+use std::io::{IsTerminal, Write};
+use std::thread;
+use std::time::Duration;
+
+/// A stop that Ctrl-C and a request to terminate set; the second one ends the program at once.
+pub(crate) fn stop_on_interrupt() -> anyhow::Result<Stop> {
+    let stop = Stop::new();
+    let on_interrupt = stop.clone();
+    ctrlc::set_handler(move || {
+        if on_interrupt.is_stopped() {
+            std::process::exit(130);
+        }
+        on_interrupt.stop();
+    })?;
+    Ok(stop)
+}
+
+/// Sets `stop` after a while, if one is given.
+pub(crate) fn stop_after(stop: &Stop, duration: Option<Duration>) {
+    if let Some(duration) = duration {
+        let stop = stop.clone();
+        thread::spawn(move || {
+            if !stop.wait(duration) {
+                stop.stop();
+            }
+        });
+    }
+}
+
+/// Whether a live page can be shown.
+pub(crate) fn has_terminal() -> bool {
+    std::io::stdout().is_terminal() && std::io::stdin().is_terminal()
+}
+
+/// Says something to people, beside the results.
+pub(crate) fn say(text: impl std::fmt::Display) {
+    // Nobody reads it when the standard error is closed.
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
+}
+
+/// Says what a source has to say.
+pub(crate) struct Teller;
+
+impl Sink for Teller {
+    fn accept(&mut self, item: &Item) -> Result<()> {
+        if let Item::Notice(notice) = item {
+            end_progress();
+            say(notice);
+        }
+        Ok(())
+    }
+}
+
+/// Shows how far it has come, in place, when the standard error is a terminal.
+pub(crate) fn show_progress(text: impl std::fmt::Display) {
+    let mut stderr = std::io::stderr().lock();
+    if stderr.is_terminal() {
+        let _ = write!(stderr, "\r\x1b[2K{text}");
+        let _ = stderr.flush();
+    }
+}
+
+/// Removes the line of [`show_progress`].
+pub(crate) fn end_progress() {
+    show_progress("");
+}

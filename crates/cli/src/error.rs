@@ -1,0 +1,57 @@
+//! Failures as the user sees them: what went wrong, and what to do about it.
+
+use std::io::Write;
+use std::process::ExitCode;
+
+/// Arguments that do not fit together, found only after parsing.
+#[derive(Debug, thiserror::Error)]
+#[error("{problem}")]
+pub(crate) struct Usage {
+    pub(crate) problem: String,
+    pub(crate) help: String,
+}
+
+/// Something that could not be done, for a reason that the engine does not know.
+#[derive(Debug, thiserror::Error)]
+#[error("{problem}")]
+pub(crate) struct Failure {
+    pub(crate) problem: String,
+    pub(crate) help: String,
+}
+
+/// Prints `error:` and `help:` lines and gives the exit code: 2 for wrong arguments, else 1.
+pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
+    if is_closed_pipe(error) {
+        return ExitCode::SUCCESS;
+    }
+    let (usage, help) = if let Some(error) = error.downcast_ref::<posewire::Error>() {
+        (error.is_usage(), error.help())
+    } else if let Some(usage) = error.downcast_ref::<Usage>() {
+        (true, Some(usage.help.clone()))
+    } else {
+        (
+            false,
+            error.downcast_ref::<Failure>().map(|failure| failure.help.clone()),
+        )
+    };
+    let mut stderr = std::io::stderr().lock();
+    // When even the standard error is closed nobody can be told.
+    let _ = writeln!(stderr, "error: {error:#}");
+    let _ = writeln!(
+        stderr,
+        "help: {}",
+        help.unwrap_or_else(|| "posewire --help lists what can be done".to_owned())
+    );
+    ExitCode::from(if usage { 2 } else { 1 })
+}
+
+/// The reader of our output has seen enough, as `head` does.
+fn is_closed_pipe(error: &anyhow::Error) -> bool {
+    let closed = std::io::ErrorKind::BrokenPipe;
+    match error.downcast_ref::<posewire::Error>() {
+        Some(posewire::Error::Write { kind, .. }) => *kind == closed,
+        _ => error
+            .downcast_ref::<std::io::Error>()
+            .is_some_and(|error| error.kind() == closed),
+    }
+}

@@ -1,0 +1,135 @@
+//! Results as people read them.
+
+use crate::plain::printable;
+use posewire::sink::Progress;
+use posewire::source::Preview;
+use posewire::stats::{Statistics, SubjectStatistics, TypeStatistics};
+use std::fmt::Write;
+
+/// Who is in a take, as `: Ada, 23 segments, 240 Hz`.
+pub(crate) fn who(preview: &Preview) -> String {
+    let Some(subject) = preview.subjects.first() else {
+        return String::new();
+    };
+    let others = match preview.subjects.len() - 1 {
+        0 => String::new(),
+        1 => " and 1 other".to_owned(),
+        more => format!(" and {more} others"),
+    };
+    let segments = subject.skeleton.segments.len();
+    let name = printable(&subject.name);
+    format!(": {name}{others}, {segments} segments, {} Hz", preview.rate_hz)
+}
+
+/// How far a stream has come, on one line.
+pub(crate) fn progress_line(progress: &Progress) -> String {
+    let mut line = format!("{} samples sent, {}", progress.frames, lateness(progress));
+    match progress.lost() {
+        0 => {}
+        lost => _ = write!(line, ", {lost} LOST"),
+    }
+    line
+}
+
+fn lateness(progress: &Progress) -> String {
+    format!("lateness {}", progress.lateness)
+}
+
+/// How a stream went, a line for each target.
+pub(crate) fn stream_summary(progress: &Progress) -> String {
+    let mut text = format!("sent {} samples, {}", progress.frames, lateness(progress));
+    for target in &progress.targets {
+        _ = write!(text, "\n  {}: {} datagrams", target.endpoint, target.datagrams);
+        for (count, what) in [
+            (target.congested, "dropped because the network was busy"),
+            (target.failed, "refused by the system"),
+            (target.dropped, "samples dropped because the peer was slow or away"),
+        ] {
+            if count > 0 {
+                _ = write!(text, ", {count} {what}");
+            }
+        }
+    }
+    text
+}
+
+/// The table of a live stream: a line for each character and datagram type.
+pub(crate) fn statistics(statistics: &Statistics) -> String {
+    let mut text = format!(
+        "{:8.1} s  {} datagrams, {} kB",
+        statistics.elapsed.as_secs_f64(),
+        statistics.datagrams,
+        statistics.bytes / 1000
+    );
+    for (count, what) in troubles(statistics) {
+        _ = write!(text, ", {count} {what}");
+    }
+    text.push('\n');
+    for subject in &statistics.subjects {
+        subject_table(&mut text, subject);
+    }
+    text
+}
+
+/// What went wrong with a stream as a whole: counts above zero, in words.
+pub(crate) fn troubles(statistics: &Statistics) -> impl Iterator<Item = (u64, &'static str)> {
+    let all = [
+        (statistics.kernel_dropped, "dropped by the kernel"),
+        (statistics.malformed, "malformed"),
+        (statistics.skipped_bytes, "bytes skipped"),
+        (statistics.characters_refused, "of too many characters"),
+    ];
+    all.into_iter().filter(|(count, _)| *count > 0)
+}
+
+fn subject_table(text: &mut String, of_subject: &SubjectStatistics) {
+    let subject = &of_subject.subject;
+    _ = write!(
+        text,
+        "character {} {}, {} segments",
+        subject.id,
+        printable(&subject.name),
+        subject.skeleton.segments.len()
+    );
+    if let Some(timecode) = of_subject.timecode {
+        _ = write!(text, ", {timecode}");
+    }
+    text.push('\n');
+    text.push_str(TABLE_HEAD);
+    for of_type in &of_subject.types {
+        type_row(text, of_type);
+    }
+}
+
+fn type_row(text: &mut String, of_type: &TypeStatistics) {
+    let counters = &of_type.counters;
+    let milliseconds = |duration: std::time::Duration| duration.as_secs_f64() * 1000.0;
+    let quirks: Vec<_> = counters
+        .quirks
+        .iter()
+        .map(|(quirk, count)| format!("{} {count}", quirk.name()))
+        .collect();
+    let row = format!(
+        "  {} {:<22} {:>7.1} {:>6} {:>9} {:>7} {:>5} {:>5} {:>5} {:>5} {:>6.1} {:>6.1} {:>7.1}  {}",
+        of_type.message_type,
+        of_type.message_type.name(),
+        of_type.rate_hz,
+        counters
+            .stride
+            .map_or_else(|| "-".to_owned(), |stride| stride.to_string()),
+        counters.received,
+        counters.missing,
+        counters.duplicate,
+        counters.late,
+        counters.reset,
+        counters.incomplete,
+        milliseconds(of_type.interval.p50),
+        milliseconds(of_type.interval.p99),
+        milliseconds(of_type.interval.max),
+        quirks.join(", "),
+    );
+    text.push_str(row.trim_end());
+    text.push('\n');
+}
+
+const TABLE_HEAD: &str = "  type                           Hz stride  received missing   dup  late reset incmp   p50    p99   max ms  quirks\n";

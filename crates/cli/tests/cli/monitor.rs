@@ -1,0 +1,25 @@
+//! `posewire monitor` alone.
+
+use crate::program::Monitor;
+
+#[test]
+fn when_nothing_comes_it_says_what_to_check() {
+    let ended = Monitor::start(&["mxtp://127.0.0.1:0", "--plain", "--duration", "3.5"]).end();
+    assert_eq!(ended.code, Some(0));
+    assert!(
+        ended.err.contains("nothing has come to mxtp://127.0.0.1:"),
+        "{}",
+        ended.err
+    );
+    assert!(ended.err.contains("firewall"), "{}", ended.err);
+}
+
+#[test]
+#[cfg(unix)]
+fn an_interrupt_ends_it_with_its_statistics() {
+    let monitor = Monitor::start(&["mxtp+tcp://127.0.0.1:0", "--plain"]);
+    monitor.interrupt();
+    let ended = monitor.end();
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    assert!(ended.out.contains("0 datagrams"), "{}", ended.out);
+}

@@ -1,0 +1,94 @@
+//! What cannot be done is said in one `error:` line and one `help:` line.
+
+use crate::program::posewire;
+use std::fs;
+use std::net::{TcpListener, UdpSocket};
+use std::path::Path;
+
+fn assert_refused(folder: &Path, arguments: &[&str], code: i32, error: &str, help: &str) {
+    let ended = posewire(folder, arguments, b"");
+    assert_eq!(ended.code, Some(code), "{arguments:?}: {}", ended.err);
+    assert_eq!(ended.out, "", "{arguments:?}");
+    let lines: Vec<_> = ended
+        .err
+        .lines()
+        .filter(|line| line.starts_with("error: ") || line.starts_with("help: "))
+        .collect();
+    let &[first, second] = lines.as_slice() else {
+        panic!("{arguments:?}: {}", ended.err)
+    };
+    assert!(first.contains(error), "{arguments:?}: {first}");
+    assert!(second.contains(help), "{arguments:?}: {second}");
+}
+
+#[test]
+fn wrong_arguments_end_with_2() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("take.mvn"), [0, 1, 2]).unwrap();
+    let walk = "synthetic:walk?people=1";
+    for (arguments, error, help) in [
+        (&["monitor", "nowhere://x"][..], "unknown scheme \"nowhere\"", "mxtp"),
+        (&["monitor", "mxtp://127.0.0.1:99999"], "99999", "HOST:PORT"),
+        (&["stream", "take.mvn"], "proprietary", "export it as MVNX"),
+        (&["inspect", "take.mvn"], "proprietary", "export it as MVNX"),
+        (&["stream", "synthetic:walk?people=65"], "from 1 to 64", "people"),
+        (&["stream", walk, "--rate", "500"], "at most 240 Hz", "--rate"),
+        (&["stream", walk, "--speed", "0"], "above 0", "real time"),
+        (&["stream", walk, "--types", "02,99"], "\"02,99\"", "01,02,03"),
+        (
+            &["stream", walk, "--to", "other.mvnx"],
+            "motion cannot be sent there",
+            "--to mxtp://",
+        ),
+    ] {
+        assert_refused(folder.path(), arguments, 2, error, help);
+    }
+}
+
+#[test]
+fn a_missing_file_ends_with_1() {
+    let folder = tempfile::tempdir().unwrap();
+    for verb in ["stream", "inspect", "explain"] {
+        assert_refused(
+            folder.path(),
+            &[verb, "none.mvnx"],
+            1,
+            "cannot read none.mvnx: no such file",
+            "path",
+        );
+    }
+}
+
+#[test]
+fn a_port_in_use_is_named() {
+    let (udp, tcp) = (
+        UdpSocket::bind("127.0.0.1:0").unwrap(),
+        TcpListener::bind("127.0.0.1:0").unwrap(),
+    );
+    for (scheme, address) in [
+        ("mxtp", udp.local_addr().unwrap()),
+        ("mxtp+tcp", tcp.local_addr().unwrap()),
+    ] {
+        let url = format!("{scheme}://{address}");
+        assert_refused(
+            Path::new("."),
+            &["monitor", &url],
+            1,
+            &address.to_string(),
+            "another program listens",
+        );
+    }
+}
+
+#[test]
+fn a_peer_that_is_not_there_is_named() {
+    let free = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
+    let url = format!("mxtp+tcp://{free}");
+    assert_refused(
+        Path::new("."),
+        &["stream", "synthetic:walk", "--to", &url],
+        1,
+        &free.to_string(),
+        "nothing listens",
+    );
+}
