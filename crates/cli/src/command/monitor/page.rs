@@ -21,7 +21,7 @@ mod view;
 mod watch;
 
 use super::board::Board;
-use controls::Controls;
+use controls::{Controls, Pane};
 use posewire::stop::Stop;
 use ratatui::DefaultTerminal;
 use ratatui::crossterm::event::{self, Event, KeyEventKind};
@@ -41,7 +41,11 @@ pub(super) fn run(board: &Board, stop: &Stop) -> anyhow::Result<()> {
         if !controls.paused {
             view = watch.look(board, begun);
         }
-        screen.0.draw(|frame| draw::draw(frame, &view, &controls, theme))?;
+        let mut turns: &[Pane] = &[];
+        screen
+            .0
+            .draw(|frame| turns = draw::draw(frame, &view, &controls, theme))?;
+        controls.turns = turns;
         handle_events(&mut controls, &view.ids(), begun + PICTURE)?;
     }
     Ok(())

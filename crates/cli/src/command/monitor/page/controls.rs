@@ -3,7 +3,7 @@
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 /// What the keys have set.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Controls {
     pub(super) quit: bool,
     pub(super) paused: bool,
@@ -12,6 +12,8 @@ pub(super) struct Controls {
     pub(super) selected: Option<u32>,
     /// The pane that is shown where there is no room for all of them.
     pub(super) pane: Pane,
+    /// The panes that take turns in the picture that is shown.
+    pub(super) turns: &'static [Pane],
     /// The first line of a list that is too long for its pane. The pane bounds it.
     pub(super) scroll: u16,
 }
@@ -37,10 +39,19 @@ impl Pane {
             Self::Problems => "problems",
         }
     }
+}
 
-    fn moved(self, by: usize) -> Self {
-        let place = Self::ALL.iter().position(|pane| *pane == self).unwrap_or(0);
-        Self::ALL[(place + by) % Self::ALL.len()]
+impl Default for Controls {
+    fn default() -> Self {
+        Self {
+            quit: false,
+            paused: false,
+            help: false,
+            selected: None,
+            pane: Pane::default(),
+            turns: &Pane::ALL,
+            scroll: 0,
+        }
     }
 }
 
@@ -65,8 +76,8 @@ impl Controls {
         match key {
             KeyCode::Down | KeyCode::Right | KeyCode::Char('j') => self.select(characters, 1),
             KeyCode::Up | KeyCode::Left | KeyCode::Char('k') => self.select(characters, -1),
-            KeyCode::Tab => self.show(self.pane.moved(1)),
-            KeyCode::BackTab => self.show(self.pane.moved(Pane::ALL.len() - 1)),
+            KeyCode::Tab => self.show_next(1),
+            KeyCode::BackTab => self.show_next(self.turns.len().saturating_sub(1)),
             KeyCode::PageDown => self.scroll = self.scroll.saturating_add(SCROLL),
             KeyCode::PageUp => self.scroll = self.scroll.saturating_sub(SCROLL),
             KeyCode::Home => self.scroll = 0,
@@ -80,9 +91,12 @@ impl Controls {
         self.selected = characters.get(place).copied();
     }
 
-    fn show(&mut self, pane: Pane) {
-        self.pane = pane;
-        self.scroll = 0;
+    fn show_next(&mut self, by: usize) {
+        let place = self.turns.iter().position(|pane| *pane == self.pane).unwrap_or(0);
+        if let Some(pane) = self.turns.iter().cycle().nth(place + by) {
+            self.pane = *pane;
+            self.scroll = 0;
+        }
     }
 }
 
@@ -118,6 +132,22 @@ mod tests {
     fn tab_goes_round_the_panes_and_back() {
         assert_eq!(after(&[KeyCode::Tab; 4]).pane, Pane::Types);
         assert_eq!(after(&[KeyCode::BackTab]).pane, Pane::Problems);
+    }
+
+    #[test]
+    fn tab_chooses_among_those_that_take_turns() {
+        let turns: &[Pane] = &[Pane::Figure, Pane::Angles];
+        let mut controls = Controls {
+            turns,
+            ..Controls::default()
+        };
+        controls.press(KeyCode::Tab.into(), &[]);
+        assert_eq!(controls.pane, Pane::Angles, "the figure was shown already");
+        controls.press(KeyCode::Tab.into(), &[]);
+        assert_eq!(controls.pane, Pane::Figure);
+        controls.turns = &[];
+        controls.press(KeyCode::BackTab.into(), &[]);
+        assert_eq!(controls.pane, Pane::Figure);
     }
 
     #[test]

@@ -10,17 +10,20 @@ use ratatui::Frame;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-/// Draws the page.
-pub(super) fn draw(frame: &mut Frame, view: &View, controls: &Controls, theme: Theme) {
+/// Draws the page. Gives the panes that take turns in it.
+pub(super) fn draw(frame: &mut Frame, view: &View, controls: &Controls, theme: Theme) -> &'static [Pane] {
     let area = frame.area();
     let buffer = frame.buffer_mut();
-    match view.character(controls.selected) {
-        Some(selected) => draw_stream(buffer, area, view, selected, controls, theme),
-        None => draw_silence(buffer, area, view, controls, theme),
-    }
+    let turns: &[Pane] = if let Some(selected) = view.character(controls.selected) {
+        draw_stream(buffer, area, view, selected, controls, theme)
+    } else {
+        draw_silence(buffer, area, view, controls, theme);
+        &[]
+    };
     if controls.help {
         overlay::draw_help(buffer, area, theme);
     }
+    turns
 }
 
 fn draw_silence(buffer: &mut Buffer, area: Rect, view: &View, controls: &Controls, theme: Theme) {
@@ -39,7 +42,14 @@ fn draw_silence(buffer: &mut Buffer, area: Rect, view: &View, controls: &Control
     header::draw_keys(buffer, layout.footer, 0, 0);
 }
 
-fn draw_stream(buffer: &mut Buffer, area: Rect, view: &View, selected: &Character, controls: &Controls, theme: Theme) {
+fn draw_stream(
+    buffer: &mut Buffer,
+    area: Rect,
+    view: &View,
+    selected: &Character,
+    controls: &Controls,
+    theme: Theme,
+) -> &'static [Pane] {
     let problems = problems::of(view, selected);
     let wanted = Wanted {
         characters: lines(view.characters.len()),
@@ -62,6 +72,7 @@ fn draw_stream(buffer: &mut Buffer, area: Rect, view: &View, selected: &Characte
         }
     }
     header::draw_keys(buffer, layout.footer, layout.turns.len(), view.characters.len());
+    layout.turns
 }
 
 /// A rule with the pane's name, or with the names of all that take turns; gives what is below.

@@ -240,7 +240,7 @@ fn draw_cut(buffer: &mut Buffer, area: Rect, problems: &[Problem], theme: Theme)
     } else {
         problems.len()
     };
-    let more = format!("and {} more", problems.len() - whole);
+    let more = format!("and {} more, see problems", problems.len() - whole);
     let cut: Vec<_> = problems[..whole]
         .iter()
         .map(|problem| cut(&problem.text, area.width.saturating_sub(4)))

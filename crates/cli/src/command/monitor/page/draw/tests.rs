@@ -12,7 +12,9 @@ use std::time::Duration;
 
 fn picture((width, height): (u16, u16), view: &View, controls: &Controls) -> String {
     let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
-    terminal.draw(|frame| draw(frame, view, controls, Theme::True)).unwrap();
+    terminal
+        .draw(|frame| _ = draw(frame, view, controls, Theme::True))
+        .unwrap();
     let buffer = terminal.backend().buffer();
     let lines = buffer.content().chunks(width.into());
     let lines = lines.map(|line| line.iter().map(ratatui::buffer::Cell::symbol).collect::<String>());
@@ -203,7 +205,7 @@ fn without_colour_no_cell_has_one() {
     example::trouble(&mut view);
     let mut terminal = Terminal::new(TestBackend::new(120, 40)).unwrap();
     terminal
-        .draw(|frame| draw(frame, &view, &Controls::default(), Theme::Plain))
+        .draw(|frame| _ = draw(frame, &view, &Controls::default(), Theme::Plain))
         .unwrap();
     let plain = ratatui::style::Color::Reset;
     assert!(
