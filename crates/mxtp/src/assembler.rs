@@ -66,7 +66,8 @@ pub struct Assembler {
 /// How an [`Assembler`] works.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AssemblerOptions {
-    /// How long a sample waits for what it lacks, from its first datagram on; 100 ms unless set.
+    /// How long a sample that a newer one waits for waits for what it lacks, from its first datagram on; 100 ms unless
+    /// set. The newest sample, which delays nothing, waits ten times as long.
     pub close_after: Duration,
 }
 
@@ -160,8 +161,12 @@ impl Assembler {
 
     /// When [`handle_timeout`](Self::handle_timeout) is next due; `None` while no sample is open.
     pub fn timeout(&self) -> Option<Stamp> {
-        let opened = self.characters.iter().filter_map(Character::first_opened).min();
-        opened.map(|opened| opened.after(self.options.close_after))
+        let close_after = self.options.close_after;
+        let due = self
+            .characters
+            .iter()
+            .filter_map(|character| character.first_due(close_after));
+        due.min()
     }
 
     /// Closes all open samples: the source has ended.

@@ -90,9 +90,9 @@ impl Character {
         self.open.iter().map(OpenSample::buffered).sum()
     }
 
-    /// When the open sample that waits longest was opened.
-    pub(super) fn first_opened(&self) -> Option<Stamp> {
-        self.open.iter().map(|sample| sample.opened).min()
+    /// When the first of the open samples has waited long enough.
+    pub(super) fn first_due(&self, close_after: Duration) -> Option<Stamp> {
+        (0..self.open.len()).map(|place| self.due(place, close_after)).min()
     }
 
     pub(super) fn handle(&mut self, now: Stamp, bytes: &[u8], datagram: &Datagram<'_>, events: &mut Events) {
@@ -114,11 +114,23 @@ impl Character {
     }
 
     pub(super) fn handle_timeout(&mut self, now: Stamp, close_after: Duration, events: &mut Events) {
-        let due = |sample: &OpenSample| sample.opened.after(close_after) <= now;
-        for _ in 0..self.open.iter().rposition(due).map_or(0, |place| place + 1) {
+        let last = (0..self.open.len()).rfind(|place| self.due(*place, close_after) <= now);
+        for _ in 0..last.map_or(0, |place| place + 1) {
             self.close_oldest(events);
         }
         self.close_complete(events);
+    }
+
+    /// When an open sample has waited long enough. The newest delays nothing, so it waits longer: a sender or a network
+    /// that pauses in the middle of a sample does not break it.
+    fn due(&self, place: usize, close_after: Duration) -> Stamp {
+        let sample = &self.open[place];
+        let is_newest = place + 1 == self.open.len() && !sample.overtaken;
+        sample.opened.after(if is_newest {
+            close_after * NEWEST_WAITS
+        } else {
+            close_after
+        })
     }
 
     pub(super) fn close_all(&mut self, events: &mut Events) {
@@ -427,3 +439,5 @@ fn is_newer(sample: u32, than: u32) -> bool {
 /// How many closed samples tell what the next one is to have.
 const MAX_CLOSED: usize = 4;
 const MAX_RETIRED: usize = 4;
+/// How many times as long as others the newest sample waits for what it lacks.
+const NEWEST_WAITS: u32 = 10;

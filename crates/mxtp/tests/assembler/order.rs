@@ -36,18 +36,37 @@ fn a_frame_says_what_its_messages_said() {
 }
 
 #[test]
-fn a_lost_message_holds_its_frame_back_until_the_timeout() {
+fn a_lost_message_holds_newer_frames_back_until_the_timeout() {
     let (mut receiver, mut sender) = (Receiver::new(), Sender::new("02,20"));
     receiver.feed_samples(&mut sender, 0..3);
+    let opened = receiver.now;
     receiver.feed(sender.sample(3).iter().take(1));
-    let due = receiver.now.after(Duration::from_millis(100));
-    assert_eq!(receiver.assembler.timeout(), Some(due));
-    receiver.wait(Duration::from_millis(99));
+    receiver.feed_samples(&mut sender, [4]);
+    assert_eq!(
+        receiver.assembler.timeout(),
+        Some(opened.after(Duration::from_millis(100)))
+    );
+    receiver.wait(Duration::from_millis(95));
     assert_eq!(receiver.frame_numbers(), [0, 1, 2]);
-    receiver.wait(Duration::from_millis(1));
-    assert_eq!(receiver.frame_numbers(), [0, 1, 2, 3]);
+    receiver.wait(Duration::from_millis(5));
+    assert_eq!(receiver.frame_numbers(), [0, 1, 2, 3, 4]);
     assert!(receiver.frames()[3].joint_angles.is_empty());
     assert_eq!(receiver.counters(MessageType::JOINT_ANGLES).incomplete, 0);
+}
+
+#[test]
+fn a_pause_in_the_middle_of_the_newest_sample_does_not_break_it() {
+    let (mut receiver, mut sender) = (Receiver::new(), Sender::new("02,20"));
+    receiver.feed_samples(&mut sender, 0..3);
+    let sample = sender.sample(3);
+    receiver.feed(sample.iter().take(1));
+    receiver.wait(Duration::from_millis(999));
+    receiver.feed(sample.iter().skip(1));
+    assert!(!receiver.frames()[3].joint_angles.is_empty());
+
+    receiver.feed(sender.sample(4).iter().take(1));
+    receiver.wait(Duration::from_secs(1));
+    assert_eq!(receiver.frame_numbers(), [0, 1, 2, 3, 4]);
 }
 
 #[test]
@@ -94,7 +113,7 @@ fn a_message_for_a_frame_that_is_done_is_late_and_makes_no_second_frame() {
     receiver.feed_samples(&mut sender, 0..3);
     let sample = sender.sample(3);
     receiver.feed(sample.iter().take(1));
-    receiver.wait(Duration::from_millis(100));
+    receiver.wait(Duration::from_secs(1));
     receiver.feed(sample.iter().skip(1));
     receiver.finish();
     assert_eq!(receiver.frame_numbers(), [0, 1, 2, 3]);

@@ -72,7 +72,7 @@ fn a_lost_part_leaves_its_segments_unknown() {
                 .filter(|(part, _)| *part != lost)
                 .map(|(_, part)| part),
         );
-        receiver.wait(Duration::from_millis(100));
+        receiver.wait(Duration::from_secs(1));
         let frame = receiver.frames()[2];
         let known = frame
             .position
