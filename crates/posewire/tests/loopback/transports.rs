@@ -3,8 +3,10 @@
 use crate::harness::{Gathered, Receiver, over_udp, play, seconds, types};
 use posewire::endpoint::Endpoint;
 use posewire::sink::MxtpSink;
+use posewire::source::PlaybackOptions;
 use posewire::stop::Stop;
 use posewire::{Session, Source};
+use posewire_mxtp::MessageType;
 use std::net::{TcpListener, TcpStream};
 
 const WALK: &str = "synthetic:walk?people=2&rate=60";
@@ -77,9 +79,51 @@ fn a_peer_that_stalls_loses_whole_samples_and_delays_nobody() {
 }
 
 #[test]
+fn a_receiver_connects_again_when_the_streamer_comes_back() {
+    let walk = "synthetic:walk?rate=600";
+    let listen: Endpoint = "mxtp+tcp://127.0.0.1:0?mode=listen".parse().unwrap();
+    let sink = MxtpSink::open(&[listen], types("02,12,13")).unwrap();
+    let ours = sink.progress().lock().unwrap().targets[0].endpoint.clone();
+    let receiver = Receiver::start(&ours.replace("listen", "connect"));
+    let mut sent = play(walk, &seconds(0.5), sink).frames;
+    let again = MxtpSink::open(&[ours.parse().unwrap()], types("02,12,13")).unwrap();
+    sent += play(walk, &seconds(0.5), again).frames;
+
+    let gathered = receiver.finish(sent);
+    let pose = &gathered.statistics_of(0, MessageType::QUATERNION).counters;
+    assert_eq!((pose.received, pose.missing, pose.reset), (600, 0, 1));
+}
+
+#[test]
+fn a_streamer_connects_again_when_the_receiver_comes_back() {
+    let receiver = Receiver::start("mxtp+tcp://127.0.0.1:0");
+    let place = receiver.endpoint.clone();
+    let sink = MxtpSink::open(std::slice::from_ref(&place), types("02,12,13")).unwrap();
+    let (progress, stop) = (sink.progress(), Stop::new());
+    let source = Source::open(&WALK.parse().unwrap(), &PlaybackOptions::default()).unwrap();
+    let session = Session::start(source, vec![Box::new(sink)], stop.clone());
+    receiver.finish(20);
+
+    let receiver = Receiver::start(&place.to_string());
+    let gathered = receiver.finish(20);
+    stop.stop();
+    session.wait().unwrap();
+    assert!(gathered.frames[0].sample > 0);
+    assert!(progress.lock().unwrap().targets[0].dropped > 0, "what came while nobody was there is counted");
+}
+
+#[test]
+fn a_broadcast_reaches_who_listens_on_its_address() {
+    let receiver = Receiver::start("mxtp://127.255.255.255:0");
+    let sink = MxtpSink::open(std::slice::from_ref(&receiver.endpoint), types("02,12,13,25")).unwrap();
+    let progress = play(WALK, &seconds(0.5), sink);
+    assert_same_motion(&receiver.finish(progress.frames));
+}
+
+#[test]
 fn a_multicast_group_is_joined_on_the_named_interface() {
     let group = "mxtp://239.255.76.3:0?interface=lo";
-    let Ok(source) = Source::open(&group.parse().unwrap(), &posewire::source::PlaybackOptions::default()) else {
+    let Ok(source) = Source::open(&group.parse().unwrap(), &PlaybackOptions::default()) else {
         println!("skipped: no multicast on the loopback here");
         return;
     };
