@@ -1,10 +1,11 @@
 //! Results as people read them.
 
-use crate::plain::printable;
+use crate::plain::{cut, printable};
 use posewire::sink::Progress;
 use posewire::source::Preview;
 use posewire::stats::{Statistics, SubjectStatistics, TypeStatistics};
 use std::fmt::Write;
+use std::time::Duration;
 
 /// Who is in a take, as `: Ada, 23 segments, 240 Hz`.
 pub(crate) fn who(preview: &Preview) -> String {
@@ -103,33 +104,32 @@ fn subject_table(text: &mut String, of_subject: &SubjectStatistics) {
 
 fn type_row(text: &mut String, of_type: &TypeStatistics) {
     let counters = &of_type.counters;
-    let milliseconds = |duration: std::time::Duration| duration.as_secs_f64() * 1000.0;
-    let quirks: Vec<_> = counters
-        .quirks
-        .iter()
-        .map(|(quirk, count)| format!("{} {count}", quirk.name()))
-        .collect();
-    let row = format!(
-        "  {} {:<22} {:>7.1} {:>6} {:>9} {:>7} {:>5} {:>5} {:>5} {:>5} {:>6.1} {:>6.1} {:>7.1}  {}",
+    let stride = counters
+        .stride
+        .map_or_else(|| "-".to_owned(), |stride| stride.to_string());
+    _ = writeln!(
+        text,
+        "  {} {:<16} {:>6.1} {:>4} {:>7} {:>6} {:>4} {:>4} {:>3} {:>3} {:>6.1} {:>6.1}",
         of_type.message_type,
-        of_type.message_type.name(),
+        cut(of_type.message_type.name(), 16),
         of_type.rate_hz,
-        counters
-            .stride
-            .map_or_else(|| "-".to_owned(), |stride| stride.to_string()),
+        stride,
         counters.received,
         counters.missing,
         counters.duplicate,
         counters.late,
         counters.reset,
         counters.incomplete,
-        milliseconds(of_type.interval.p50),
         milliseconds(of_type.interval.p99),
         milliseconds(of_type.interval.max),
-        quirks.join(", "),
     );
-    text.push_str(row.trim_end());
-    text.push('\n');
+    for (quirk, count) in counters.quirks.iter() {
+        _ = writeln!(text, "     {count} {}: {}", quirk.name(), quirk.meaning());
+    }
 }
 
-const TABLE_HEAD: &str = "  type                           Hz stride  received missing   dup  late reset incmp   p50    p99   max ms  quirks\n";
+fn milliseconds(duration: Duration) -> f64 {
+    duration.as_secs_f64() * 1000.0
+}
+
+const TABLE_HEAD: &str = "  ty type                 Hz strd   whole missed  dup late rst inc p99 ms max ms\n";

@@ -108,6 +108,12 @@ impl Sink for BoardSink {
         }
         Ok(())
     }
+
+    /// Nothing more will come: whoever shows the board is to end.
+    fn finish(&mut self) -> Result<()> {
+        self.0.stop.stop();
+        Ok(())
+    }
 }
 
 /// Four seconds of 16 people at 240 Hz.

@@ -24,7 +24,9 @@ use super::board::Board;
 use controls::{Controls, Pane};
 use posewire::stop::Stop;
 use ratatui::DefaultTerminal;
-use ratatui::crossterm::event::{self, Event, KeyEventKind};
+use ratatui::crossterm::event::{self, Event, KeyEvent, KeyEventKind};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
+use std::thread;
 use std::time::{Duration, Instant};
 use theme::Theme;
 use watch::Watch;
@@ -32,6 +34,7 @@ use watch::Watch;
 /// Shows the board until `q` is pressed or `stop` is set.
 pub(super) fn run(board: &Board, stop: &Stop) -> anyhow::Result<()> {
     let mut screen = Screen::open()?;
+    let keys = read_keys();
     let mut watch = Watch::new(Instant::now());
     let mut controls = Controls::default();
     let theme = Theme::of_terminal();
@@ -46,24 +49,38 @@ pub(super) fn run(board: &Board, stop: &Stop) -> anyhow::Result<()> {
             .0
             .draw(|frame| turns = draw::draw(frame, &view, &controls, theme))?;
         controls.turns = turns;
-        handle_events(&mut controls, &view.ids(), begun + PICTURE)?;
+        press_keys(&keys, &mut controls, &view.ids(), begun + PICTURE);
     }
     Ok(())
 }
 
-/// Takes what is typed until it is time for the next picture. A key is answered at once when the time has come anyway.
-fn handle_events(controls: &mut Controls, characters: &[u32], until: Instant) -> std::io::Result<()> {
-    while event::poll(until.saturating_duration_since(Instant::now()))? {
-        if let Event::Key(key) = event::read()?
-            && key.kind != KeyEventKind::Release
-        {
-            controls.press(key, characters);
+/// Reads keys on a thread of its own, which lives as long as the program: reading from a terminal that has been closed
+/// never returns.
+fn read_keys() -> Receiver<KeyEvent> {
+    let (sender, keys) = mpsc::sync_channel(QUEUED_KEYS);
+    thread::spawn(move || {
+        while let Ok(event) = event::read() {
+            if let Event::Key(key) = event
+                && key.kind != KeyEventKind::Release
+                && sender.send(key).is_err()
+            {
+                break;
+            }
         }
-        if controls.quit {
-            break;
+    });
+    keys
+}
+
+/// Takes what is typed until it is time for the next picture. A key is answered at once when the time has come anyway.
+fn press_keys(keys: &Receiver<KeyEvent>, controls: &mut Controls, characters: &[u32], until: Instant) {
+    while !controls.quit {
+        match keys.recv_timeout(until.saturating_duration_since(Instant::now())) {
+            Ok(key) => controls.press(key, characters),
+            Err(RecvTimeoutError::Timeout) => break,
+            // Nobody can ask for the end any more.
+            Err(RecvTimeoutError::Disconnected) => controls.quit = true,
         }
     }
-    Ok(())
 }
 
 /// The terminal in raw mode on its second screen, put back on every way out: a return, an error, a panic.
@@ -83,3 +100,4 @@ impl Drop for Screen {
 
 /// Twenty pictures a second are as many as an eye can use of numbers.
 const PICTURE: Duration = Duration::from_millis(50);
+const QUEUED_KEYS: usize = 64;
