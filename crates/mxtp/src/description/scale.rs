@@ -150,12 +150,18 @@ impl ScaledPoint {
     }
 }
 
-/// Hangs segments with a usual name on their usual parents, where these are there.
+/// Hangs segments with a usual name on their usual parents. All others keep theirs.
+///
+/// Parents come before their children, as everywhere in MVN: so segments never hang on each other in a circle, whatever
+/// names a sender gives them.
 fn hang(segments: &mut [Segment]) {
     for place in 0..segments.len() {
-        let parent = usual_parent(&segments[place].name);
-        if let Some(parent) = parent.and_then(|name| segments.iter().position(|segment| segment.name == name)) {
-            segments[place].parent = Some(parent);
+        let (before, rest) = segments.split_at_mut(place);
+        let Some(segment) = rest.first_mut() else { return };
+        if let Some(parent) = usual_parent(&segment.name) {
+            segment.parent = before.iter().position(|segment| segment.name == parent);
+        } else if segment.name == BODY_SEGMENTS[0].name {
+            segment.parent = None;
         }
     }
 }
@@ -182,6 +188,7 @@ mod tests {
     use super::*;
     use crate::body::ScaleBuffer;
     use crate::ids::PointId;
+    use posewire_motion::Skeleton;
 
     fn pose(origin: f32) -> ScaleBuffer {
         let mut buffer = ScaleBuffer::new();
@@ -243,6 +250,19 @@ mod tests {
         assert_eq!(usual_parent("RightCarpus").as_deref(), Some("RightHand"));
         assert_eq!(usual_parent("LeftFirstMetacarpal").as_deref(), Some("LeftCarpus"));
         assert_eq!(usual_parent("LeftSword"), None);
+    }
+
+    #[test]
+    fn segments_in_an_odd_order_do_not_hang_on_each_other() {
+        let mut segments = Skeleton::standard(0, false).segments;
+        let names = ["L5", "Pelvis", "Sword", "Neck", "T8"];
+        let mut buffer = ScaleBuffer::new();
+        names.iter().for_each(|name| buffer.push_segment(name, [0.0; 3]));
+        let mut sequence = ScaleSequence::default();
+        sequence.note(DatagramCounter::SINGLE, &buffer.as_scale());
+        sequence.describe(&mut segments);
+        let parents: Vec<_> = segments[..6].iter().map(|segment| segment.parent).collect();
+        assert_eq!(parents, [None, None, Some(1), None, None, Some(4)]);
     }
 
     #[test]
