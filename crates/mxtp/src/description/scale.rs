@@ -255,9 +255,10 @@ mod tests {
     #[test]
     fn segments_in_an_odd_order_do_not_hang_on_each_other() {
         let mut segments = Skeleton::standard(0, false).segments;
-        let names = ["L5", "Pelvis", "Sword", "Neck", "T8"];
         let mut buffer = ScaleBuffer::new();
-        names.iter().for_each(|name| buffer.push_segment(name, [0.0; 3]));
+        for name in ["L5", "Pelvis", "Sword", "Neck", "T8"] {
+            buffer.push_segment(name, [0.0; 3]);
+        }
         let mut sequence = ScaleSequence::default();
         sequence.note(DatagramCounter::SINGLE, &buffer.as_scale());
         sequence.describe(&mut segments);
