@@ -1,7 +1,7 @@
 //! From a frame to the messages of a sample.
 
 use super::convert::{EULER_SPACE, euler_to_wire, quaternion_to_wire, vector_to_wire};
-use super::joints::{self, Pair};
+use super::joints::{self, SentAngle};
 use super::lacks::sections_lack;
 use super::landmarks::{Landmark, landmark_records, landmarks, marker_records};
 use super::message::{MAX_DATAGRAM, write_body, write_records};
@@ -96,7 +96,8 @@ impl Encoder {
     /// order. Types 12 and 13 are not part of a sample.
     ///
     /// Segments, sensors and markers that were not tracked are left out of their message, which may so be empty. Joint
-    /// angles are sent with the six ergonomic angles or, when one of these is missing, without. Trackers have the 68-byte
+    /// angles are sent with the six ergonomic angles or, when one of these is missing, without; those of fingers are not
+    /// part of the type. Trackers have the 68-byte
     /// form when accelerations and angular velocities are known, else that of 44 bytes; a centre of mass has 36 bytes when
     /// velocity and acceleration are known, else 12.
     ///
@@ -157,7 +158,7 @@ impl EncoderOptions {
 struct Prepared {
     subject: Arc<Subject>,
     counts: SegmentCounts,
-    joints: Vec<Pair>,
+    angles: Vec<SentAngle>,
     landmarks: Vec<Landmark>,
 }
 
@@ -167,7 +168,7 @@ impl Prepared {
         Self {
             subject: subject.clone(),
             counts: segment_counts(&subject.skeleton),
-            joints: joints::pairs(&subject.skeleton).collect(),
+            angles: joints::sent_angles(&subject.skeleton).collect(),
             landmarks: landmarks(&subject.skeleton).collect(),
         }
     }
@@ -214,8 +215,8 @@ impl Message<'_> {
         match message_type {
             MessageType::POINTS => self.write_points(out),
             MessageType::JOINT_ANGLES => {
-                let pairs = &self.prepared.joints;
-                write_records(out, header, limit, pairs.len(), joints::records(frame, pairs));
+                let angles = &self.prepared.angles;
+                write_records(out, header, limit, angles.len(), joints::records(frame, angles));
             }
             MessageType::TRACKERS => {
                 let sensors = frame.subject.skeleton.sensors.len();

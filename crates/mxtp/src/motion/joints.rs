@@ -5,78 +5,118 @@ use super::decode::slots;
 use crate::body::JointAngles;
 use crate::ids::{PointId, SegmentId};
 use crate::{Quirk, Quirks};
-use posewire_motion::{Connector, DVec3, Frame, Skeleton};
+use posewire_motion::{Connector, DVec3, Frame, SegmentKind, Skeleton};
 
 /// The two point IDs by which a joint is named.
 pub(super) type Pair = (PointId, PointId);
 
-/// The IDs of a skeleton's joints, then of its ergonomic angles: the order of the datagram.
-pub(super) fn pairs(skeleton: &Skeleton) -> impl Iterator<Item = Pair> {
-    let joints = skeleton
-        .joints
-        .iter()
-        .map(|joint| (point(joint.parent), point(joint.child)));
-    // An angle to the vertical is named as one to the pelvis.
-    let ergonomic = skeleton.ergonomic_angles.iter();
-    joints.chain(ergonomic.map(|angle| (segment(angle.parent.unwrap_or(0)), segment(angle.child))))
+/// Which angle of a frame is sent, and the IDs that it is sent with.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SentAngle {
+    place: Place,
+    ids: Pair,
+}
+
+/// Where an angle stands in a frame.
+#[derive(Clone, Copy, Debug)]
+enum Place {
+    Joint(usize),
+    Ergonomic(usize),
+}
+
+/// The angles of a skeleton in the order of the datagram: the joints, then the ergonomic angles. Joints of the fingers
+/// have none there.
+pub(super) fn sent_angles(skeleton: &Skeleton) -> impl Iterator<Item = SentAngle> {
+    let joints = skeleton.joints.iter().enumerate();
+    let joints = joints.filter(|(_, joint)| !is_finger(skeleton, joint.child.segment));
+    let joints = joints.map(|(place, joint)| SentAngle {
+        place: Place::Joint(place),
+        ids: (point(joint.parent), point(joint.child)),
+    });
+    let ergonomic = skeleton.ergonomic_angles.iter().enumerate();
+    joints.chain(ergonomic.map(|(place, angle)| SentAngle {
+        place: Place::Ergonomic(place),
+        // An angle to the vertical is named as one to the pelvis.
+        ids: (segment(angle.parent.unwrap_or(0)), segment(angle.child)),
+    }))
 }
 
 /// The records of a frame: the joints whose angles are known, and the ergonomic angles when all of them are.
 ///
 /// Two ergonomic angles share their IDs, so they can be told apart only when none is left out.
-pub(super) fn records(frame: &Frame, pairs: &[Pair]) -> impl Iterator<Item = JointAngles> {
-    let (joints, ergonomic) = pairs.split_at(frame.joint_angles.len().min(pairs.len()));
-    let complete =
-        frame.ergonomic_angles.len() == ergonomic.len() && frame.ergonomic_angles.iter().all(Option::is_some);
-    let ergonomic = if complete { ergonomic } else { &[] };
-    let joints = joints.iter().zip(&frame.joint_angles);
-    let all = joints.chain(ergonomic.iter().zip(&frame.ergonomic_angles));
-    all.filter_map(|(pair, angles)| Some(record(*pair, (*angles)?)))
+pub(super) fn records(frame: &Frame, sent: &[SentAngle]) -> impl Iterator<Item = JointAngles> {
+    let ergonomic = &frame.ergonomic_angles;
+    let all = ergonomic.len() == frame.subject.skeleton.ergonomic_angles.len();
+    let complete = all && ergonomic.iter().all(Option::is_some);
+    sent.iter().filter_map(move |sent| {
+        let angles = match sent.place {
+            Place::Joint(place) => frame.joint_angles.get(place),
+            Place::Ergonomic(place) => ergonomic.get(place).filter(|_| complete),
+        };
+        Some(record(sent.ids, (*angles?)?))
+    })
 }
 
 /// Writes the records into the frame: by position when all joints are there, else by their IDs.
 pub(super) fn fill(frame: &mut Frame, items: &[JointAngles], first: Option<usize>) -> Quirks {
     let subject = frame.subject.clone();
     let skeleton = &subject.skeleton;
-    let joints = skeleton.joints.len();
-    let all = joints + skeleton.ergonomic_angles.len();
+    let all = sent_angles(skeleton).count();
+    let joints = all - skeleton.ergonomic_angles.len();
     let whole = first == Some(0) && (items.len() == joints || items.len() == all);
+    if whole {
+        for (sent, item) in sent_angles(skeleton).zip(items) {
+            write(frame, skeleton, sent.place, angles(item.angles()));
+        }
+        return Quirks::NONE;
+    }
+    fill_by_ids(frame, skeleton, items, first)
+}
+
+/// Writes records of which some are missing: where their IDs say, or at their position when the IDs say nothing.
+fn fill_by_ids(frame: &mut Frame, skeleton: &Skeleton, items: &[JointAngles], first: Option<usize>) -> Quirks {
     let mut quirks = Quirks::NONE;
     let mut next = first.unwrap_or(0);
     for (position, item) in items.iter().enumerate() {
         let expected = first.map(|first| first + position);
-        let place = if whole {
-            expected
-        } else {
-            find(skeleton, item, next).or(expected)
-        };
-        let written = place.is_some_and(|place| write(frame, skeleton, place, angles(item.angles())));
-        quirks.insert_if(!written, Quirk::JointId);
-        next = place.map_or(next, |place| place + 1);
+        let index = find(skeleton, item, next).or(expected);
+        let sent = index.and_then(|index| sent_angles(skeleton).nth(index));
+        if let Some(sent) = sent {
+            write(frame, skeleton, sent.place, angles(item.angles()));
+        }
+        quirks.insert_if(sent.is_none(), Quirk::JointId);
+        next = index.map_or(next, |index| index + 1);
     }
     quirks
 }
 
-/// The place of the joint with the record's IDs, looked for from `from` on and then from the beginning.
+/// The index of the angle with the record's IDs, looked for from `from` on and then from the beginning.
 fn find(skeleton: &Skeleton, item: &JointAngles, from: usize) -> Option<usize> {
-    let matches = |(place, pair): (usize, Pair)| (pair == (item.parent(), item.child())).then_some(place);
-    let mut later = pairs(skeleton).enumerate().skip(from).filter_map(matches);
-    later.next().or_else(|| pairs(skeleton).enumerate().find_map(matches))
+    let ids = (item.parent(), item.child());
+    let matches = |(index, sent): (usize, SentAngle)| (sent.ids == ids).then_some(index);
+    let mut later = sent_angles(skeleton).enumerate().skip(from).filter_map(matches);
+    later
+        .next()
+        .or_else(|| sent_angles(skeleton).enumerate().find_map(matches))
 }
 
-/// Whether the skeleton has the joint.
-fn write(frame: &mut Frame, skeleton: &Skeleton, place: usize, value: DVec3) -> bool {
-    let (joints, ergonomic) = (skeleton.joints.len(), skeleton.ergonomic_angles.len());
-    let slot = match place.checked_sub(joints) {
-        None => slots(&mut frame.joint_angles, joints).get_mut(place),
-        Some(place) if place < ergonomic => slots(&mut frame.ergonomic_angles, ergonomic).get_mut(place),
-        Some(_) => None,
+fn write(frame: &mut Frame, skeleton: &Skeleton, place: Place, value: DVec3) {
+    let slot = match place {
+        Place::Joint(place) => slots(&mut frame.joint_angles, skeleton.joints.len()).get_mut(place),
+        Place::Ergonomic(place) => slots(&mut frame.ergonomic_angles, skeleton.ergonomic_angles.len()).get_mut(place),
     };
-    slot.map(|slot| *slot = Some(value)).is_some()
+    if let Some(slot) = slot {
+        *slot = Some(value);
+    }
 }
 
-fn record(pair: Pair, value: DVec3) -> JointAngles {
-    JointAngles::new(pair.0, pair.1, angles_to_wire(value))
+fn is_finger(skeleton: &Skeleton, place: usize) -> bool {
+    let kind = skeleton.segments.get(place).map(|segment| segment.kind);
+    matches!(kind, Some(SegmentKind::LeftFinger | SegmentKind::RightFinger))
+}
+
+fn record((parent, child): Pair, value: DVec3) -> JointAngles {
+    JointAngles::new(parent, child, angles_to_wire(value))
 }
 
 fn point(end: Connector) -> PointId {

@@ -1,9 +1,10 @@
 //! What a frame holds comes back from its datagrams.
 
 use crate::frames::{encode, full_frame, marker, object, options, part_of, receive, subject, types_of};
-use posewire_motion::{DQuat, DVec3, Frame};
+use posewire_motion::{Connector, DQuat, DVec3, Frame, Joint, Subject};
 use posewire_mxtp::motion::{EncoderOptions, LANDMARKS, MessageTypes};
 use posewire_mxtp::{Datagram, Header, MessageType, Quirk, Quirks, Revision};
+use std::sync::Arc;
 
 /// The sections that come back from a type, where they come back as they were.
 fn exact_sections(frame: &Frame, message_type: MessageType) -> Frame {
@@ -247,6 +248,27 @@ fn an_incomplete_set_of_ergonomic_angles_is_not_sent() {
     let (received, _) = receive(&subject, datagrams.iter());
     assert_eq!(received.joint_angles, sent.joint_angles);
     assert_eq!(received.ergonomic_angles, []);
+}
+
+#[test]
+fn angles_of_finger_joints_are_not_part_of_type_20() {
+    let mut with_fingers = Subject::clone(&subject(0, true));
+    let wrist = with_fingers.skeleton.joints[13].child;
+    for (name, segment) in [("jLeftCMC", 24), ("jLeftMCP", 25)] {
+        let child = Connector { segment, point: 1 };
+        with_fingers.skeleton.joints.push(Joint {
+            name: name.to_owned(),
+            parent: wrist,
+            child,
+        });
+    }
+    let subject = Arc::new(with_fingers);
+    let mut sent = full_frame(&subject, 14);
+    let datagrams = encode(options(&[MessageType::JOINT_ANGLES]), &sent);
+    let (received, quirks) = receive(&subject, datagrams.iter());
+    assert_eq!((datagrams.iter().next().unwrap()[11], quirks), (28, Quirks::NONE));
+    sent.joint_angles[22..].fill(None);
+    assert_eq!(received, exact_sections(&sent, MessageType::JOINT_ANGLES));
 }
 
 #[test]
