@@ -127,8 +127,8 @@ fn clipped(text: &str, limit: usize) -> &str {
 mod tests {
     use super::*;
     use crate::MessageType;
-    use crate::body::ScaleBuffer;
-    use crate::ids::{PointId, SegmentCounts};
+    use crate::body::{ScaleBuffer, ScalePoint};
+    use crate::ids::SegmentCounts;
     use posewire_motion::{Color, DVec3};
 
     fn described(counts: SegmentCounts) -> Description {
@@ -178,14 +178,20 @@ mod tests {
         buffer.push_segment("RightSword", [0.25; 3]);
         description.note_scale(DatagramCounter(0), &buffer.as_scale());
         buffer.clear();
-        buffer.push_point(PointId(0x0109), "jL5S1", 1, [0.0, 0.0, 0.1]);
+        buffer.push_point(&ScalePoint {
+            segment: 1,
+            local: 300,
+            name: "jL5S1".into(),
+            flags: 1,
+            position: [0.0, 0.0, 0.1],
+        });
         description.note_scale(DatagramCounter(0x81), &buffer.as_scale());
         let subject = description.publish().unwrap();
         let skeleton = &subject.skeleton;
         assert_eq!(skeleton.segments[23].name, "RightSword");
         assert_eq!(skeleton.segments[23].origin, Some(DVec3::splat(0.25)));
         assert_eq!(skeleton.segments[0].points[0].name, "jL5S1");
-        assert_eq!(skeleton.joints[0].parent.point, 9);
+        assert_eq!(skeleton.joints[0].parent.point, 300);
         assert_eq!(skeleton.segments[1].parent, Some(0));
     }
 }

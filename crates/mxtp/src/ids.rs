@@ -140,16 +140,9 @@ impl SegmentCounts {
         }
     }
 
-    /// The ID of a place in a character with these counts.
-    pub fn id(self, place: Place) -> SegmentId {
-        let first_finger = BODY_SEGMENTS + self.props;
-        let (base, index) = match place {
-            Place::Body(index) => (0, index),
-            Place::Prop(index) => (BODY_SEGMENTS, index),
-            Place::LeftHand(index) => (first_finger, index),
-            Place::RightHand(index) => (first_finger + HAND_SEGMENTS, index),
-        };
-        SegmentId(1 + u32::from(base) + u32::from(index))
+    /// Whether the character can have a segment with this ID: one that it has, or any when the counts are not known.
+    pub(crate) fn may_have(self, id: SegmentId) -> bool {
+        id >= SegmentId::PELVIS && id <= self.last_id()
     }
 
     /// The highest segment ID, or the highest there can be when the counts are not known (Rev J).
@@ -310,13 +303,6 @@ fn finger_position(items: usize, counts: SegmentCounts) -> u32 {
     u32::from(BODY_SEGMENTS) + u32::from(props)
 }
 
-/// Whether a point ID names a point of a segment that the character can have.
-#[inline]
-pub(crate) fn is_known_point(id: PointId, counts: SegmentCounts) -> bool {
-    let segment = id.segment();
-    segment >= SegmentId::PELVIS && segment <= counts.last_id()
-}
-
 /// Quirks of the joint IDs of one type 20 datagram.
 pub(crate) fn joint_quirks<I>(pairs: I) -> Quirks
 where
@@ -339,6 +325,7 @@ pub(crate) fn carries_tracker(id: SegmentId) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::HashSet;
 
     fn quirk_of(ids: &[u32], counts: SegmentCounts) -> Option<Quirk> {
         numbering_quirk(&ids.iter().map(|id| SegmentId(*id)), counts)
@@ -358,14 +345,14 @@ mod tests {
     }
 
     #[test]
-    fn place_and_id_are_each_other_s_inverse() {
-        for counts in [SegmentCounts::BODY, SegmentCounts::new(2, true)] {
-            for id in (1..=counts.last_id().0).map(SegmentId) {
-                assert_eq!(counts.id(counts.place(id).unwrap()), id);
-            }
-            assert_eq!(counts.place(SegmentId(0)), None);
-            assert_eq!(counts.place(SegmentId(u32::MAX)), None);
+    fn every_id_has_a_place_of_its_own() {
+        let all = SegmentCounts::new(2, true);
+        let places: HashSet<_> = (1..=65).map(|id| all.place(SegmentId(id)).unwrap()).collect();
+        assert_eq!(places.len(), 65);
+        for id in [0, 66, u32::MAX] {
+            assert_eq!(all.place(SegmentId(id)), None);
         }
+        assert_eq!(SegmentCounts::BODY.place(SegmentId(24)), None);
     }
 
     #[test]
@@ -383,8 +370,8 @@ mod tests {
         let sacrum = PointId::new(SegmentId::PELVIS, 13);
         assert_eq!(sacrum, PointId(269));
         assert_eq!((sacrum.segment(), sacrum.local()), (SegmentId(1), 13));
-        assert!(is_known_point(sacrum, SegmentCounts::BODY));
-        assert!(!is_known_point(PointId(113), SegmentCounts::BODY));
+        assert!(SegmentCounts::BODY.may_have(sacrum.segment()));
+        assert!(!SegmentCounts::BODY.may_have(PointId(113).segment()));
     }
 
     #[test]

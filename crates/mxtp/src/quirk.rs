@@ -41,7 +41,7 @@ pub enum Quirk {
     ScaleSingleDatagram,
     /// Segments and points share one scale datagram.
     ScaleCombined,
-    /// A point ID that is not 256 x a known segment + a local ID.
+    /// A point on a segment that the character does not have, such as one with ID 100 x segment + point.
     PointId,
     /// 22 joints without the six ergonomic ones.
     Joints22,
@@ -137,7 +137,7 @@ impl Quirk {
             Self::TextNotUtf8 => "a string is not UTF-8",
             Self::ScaleSingleDatagram => "the null pose has datagram counter 0x80 instead of 0",
             Self::ScaleCombined => "segments and points share one scale datagram",
-            Self::PointId => "a point ID is not 256 x a known segment + a local ID",
+            Self::PointId => "a point is on a segment that the character does not have",
             Self::Joints22 => "22 joints without the six ergonomic ones",
             Self::JointId => "a pair of point IDs is no known joint",
             Self::TrackersShort => "trackers of 44 bytes, no acceleration or angular velocity",

@@ -4,7 +4,7 @@ use zerocopy::byteorder::big_endian::{F32, U32};
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 
 use super::{floats, wire};
-use crate::ids::{PointId, is_known_point};
+use crate::ids::PointId;
 use crate::{Header, Quirk, Quirks};
 
 /// Position of a point, 16 bytes (MV0305 2.5.4).
@@ -49,6 +49,6 @@ impl PointPosition {
 
 pub(super) fn check(header: &Header, points: &[PointPosition], quirks: &mut Quirks) {
     let counts = header.segment_counts();
-    let known = points.iter().all(|point| is_known_point(point.id(), counts));
+    let known = points.iter().all(|point| counts.may_have(point.id().segment()));
     quirks.insert_if(!known, Quirk::PointId);
 }

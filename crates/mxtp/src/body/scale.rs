@@ -4,7 +4,7 @@ use zerocopy::byteorder::big_endian::{F32, I32, U16, U32};
 use zerocopy::{FromBytes, Immutable, KnownLayout, Unaligned};
 
 use super::{Body, Text, floats, truncated};
-use crate::ids::{PointId, SegmentId, is_known_point};
+use crate::ids::SegmentId;
 use crate::{DatagramCounter, Error, Header, Quirk, Quirks};
 
 /// Bytes of a segment with an empty name.
@@ -59,14 +59,6 @@ pub struct ScalePoint<'a> {
     pub flags: u32,
     /// Position relative to the segment's origin in the null pose, metres, Z up.
     pub position: [f32; 3],
-}
-
-impl ScalePoint<'_> {
-    /// 256 x segment ID + local ID; `None` for a local ID above 255.
-    pub fn id(&self) -> Option<PointId> {
-        let local = u8::try_from(self.local).ok()?;
-        Some(PointId::new(SegmentId(self.segment.into()), local))
-    }
 }
 
 impl<'a> Scale<'a> {
@@ -132,20 +124,18 @@ impl ScaleBuffer {
     /// Adds a segment with its origin in the null pose, metres, Z up.
     pub fn push_segment(&mut self, name: &str, origin: [f32; 3]) {
         self.segment_count += 1;
-        push_text(&mut self.segments, name);
+        push_text(&mut self.segments, Text::from(name));
         push_vector(&mut self.segments, origin);
     }
 
-    /// Adds a point with its position relative to its segment's origin, metres, Z up.
-    pub fn push_point(&mut self, id: PointId, name: &str, flags: u32, position: [f32; 3]) {
+    /// Adds a point.
+    pub fn push_point(&mut self, point: &ScalePoint<'_>) {
         self.point_count += 1;
-        let segment = id.segment().0 as u16;
-        self.points.extend_from_slice(&segment.to_be_bytes());
-        let local = u16::from(id.local());
-        self.points.extend_from_slice(&local.to_be_bytes());
-        push_text(&mut self.points, name);
-        self.points.extend_from_slice(&flags.to_be_bytes());
-        push_vector(&mut self.points, position);
+        self.points.extend_from_slice(&point.segment.to_be_bytes());
+        self.points.extend_from_slice(&point.local.to_be_bytes());
+        push_text(&mut self.points, point.name);
+        self.points.extend_from_slice(&point.flags.to_be_bytes());
+        push_vector(&mut self.points, point.position);
     }
 
     /// What has been collected, for [`Body::Scale`].
@@ -168,7 +158,7 @@ pub(super) fn decode<'a>(header: &Header, bytes: &'a [u8], quirks: &mut Quirks) 
     quirks.insert_if(segments && points, Quirk::ScaleCombined);
     quirks.insert_if(segments && single, Quirk::ScaleSingleDatagram);
     let counts = header.segment_counts();
-    let known = |point: ScalePoint<'_>| point.id().is_some_and(|id| is_known_point(id, counts));
+    let known = |point: ScalePoint<'_>| counts.may_have(SegmentId(point.segment.into()));
     quirks.insert_if(!scale.points().all(known), Quirk::PointId);
     Ok((Body::Scale(scale), cursor.left))
 }
@@ -323,8 +313,8 @@ impl Fault {
     }
 }
 
-fn push_text(out: &mut Vec<u8>, text: &str) {
-    out.extend_from_slice(&(text.len() as u32).to_be_bytes());
+fn push_text(out: &mut Vec<u8>, text: Text<'_>) {
+    out.extend_from_slice(&(text.as_bytes().len() as u32).to_be_bytes());
     out.extend_from_slice(text.as_bytes());
 }
 

@@ -187,7 +187,6 @@ const MAX_NAME: usize = 128;
 mod tests {
     use super::*;
     use crate::body::ScaleBuffer;
-    use crate::ids::PointId;
     use posewire_motion::Skeleton;
 
     fn pose(origin: f32) -> ScaleBuffer {
@@ -196,9 +195,19 @@ mod tests {
         buffer
     }
 
-    fn points(number: u32) -> ScaleBuffer {
+    fn point(segment: u16, local: u16, name: &str) -> ScalePoint<'_> {
+        ScalePoint {
+            segment,
+            local,
+            name: name.into(),
+            flags: 0,
+            position: [0.5; 3],
+        }
+    }
+
+    fn points(number: u16) -> ScaleBuffer {
         let mut buffer = ScaleBuffer::new();
-        buffer.push_point(PointId(0x100 + number), "point", 0, [0.5; 3]);
+        buffer.push_point(&point(1, number, "point"));
         buffer
     }
 
@@ -273,7 +282,7 @@ mod tests {
         let long = "é".repeat(1000);
         for number in 0..3000 {
             buffer.push_segment(&long, [0.0; 3]);
-            buffer.push_point(PointId(number), &long, 0, [0.0; 3]);
+            buffer.push_point(&point(1, number, &long));
         }
         sequence.note(DatagramCounter::SINGLE, &buffer.as_scale());
         assert_eq!(

@@ -4,10 +4,9 @@ use super::convert::vector_to_wire;
 use super::lacks::{null_pose_lacks, null_pose_length};
 use super::message::{MAX_DATAGRAM, write_body};
 use super::{Datagrams, EncoderOptions};
-use crate::body::{Body, Meta, SCALE_POINT_MIN, ScaleBuffer, push_tag};
-use crate::ids::{PointId, SegmentId};
+use crate::body::{Body, Meta, SCALE_POINT_MIN, ScaleBuffer, ScalePoint, push_tag};
 use crate::{DatagramCounter, Header};
-use posewire_motion::{Color, Point, Skeleton, Subject};
+use posewire_motion::{Color, Skeleton, Subject};
 
 /// Memory that is used again for each description.
 #[derive(Clone, Debug, Default)]
@@ -60,14 +59,15 @@ pub(super) fn write_scale(
     let buffer = &mut scratch.scale;
     buffer.clear();
     let most = per_datagram(skeleton);
-    for (id, point) in points(skeleton) {
+    for point in points(skeleton) {
         let scale = buffer.as_scale();
-        let full = scale.point_count() == most || Header::SIZE + scale.size() + point_size(point) > limit;
+        let full = scale.point_count() == most
+            || Header::SIZE + scale.size() + SCALE_POINT_MIN + point.name.as_bytes().len() > limit;
         if full && scale.point_count() > 0 && index < LAST_INDEX {
             write_points(buffer, header, DatagramCounter::part(index, false), out);
             index += 1;
         }
-        buffer.push_point(id, &point.name, point.flags, vector_to_wire(point.offset));
+        buffer.push_point(&point);
     }
     write_points(buffer, header, DatagramCounter::part(index, true), out);
 }
@@ -87,12 +87,15 @@ fn write_points(buffer: &mut ScaleBuffer, header: Header, counter: DatagramCount
     buffer.clear();
 }
 
-/// All points whose numbers the wire can state.
-fn points(skeleton: &Skeleton) -> impl Iterator<Item = (PointId, &Point)> {
-    skeleton.segments.iter().zip(1..).flat_map(|(segment, id)| {
-        segment.points.iter().filter_map(move |point| {
-            let local = u8::try_from(point.id).ok()?;
-            Some((PointId::new(SegmentId(id), local), point))
+/// All points, segment by segment.
+fn points(skeleton: &Skeleton) -> impl Iterator<Item = ScalePoint<'_>> {
+    skeleton.segments.iter().zip(1..=u16::MAX).flat_map(|(segment, id)| {
+        segment.points.iter().map(move |point| ScalePoint {
+            segment: id,
+            local: point.id,
+            name: point.name.as_str().into(),
+            flags: point.flags,
+            position: vector_to_wire(point.offset),
         })
     })
 }
@@ -103,11 +106,6 @@ fn per_datagram(skeleton: &Skeleton) -> usize {
         .count()
         .div_ceil(usize::from(LAST_INDEX))
         .max(POINTS_PER_DATAGRAM)
-}
-
-/// Bytes of a point: its IDs, name, flags and position.
-fn point_size(point: &Point) -> usize {
-    SCALE_POINT_MIN + point.name.len()
 }
 
 /// Whether a tag can stand on a line of its own and is not one of those that are always sent.

@@ -5,6 +5,7 @@ use posewire_motion::{Point, Segment, SegmentKind, Skeleton, Subject};
 use posewire_mxtp::body::{Body, Scale};
 use posewire_mxtp::motion::{Datagrams, Encoder, EncoderOptions};
 use posewire_mxtp::{Datagram, Header, MessageType, Quirks};
+use std::sync::Arc;
 
 fn encode(options: EncoderOptions, subject: &Subject) -> Datagrams {
     let mut out = Datagrams::new();
@@ -82,13 +83,17 @@ fn the_null_pose_comes_first_and_the_points_in_five_datagrams() {
 
 #[test]
 fn the_scale_tells_the_whole_skeleton() {
-    let subject = subject(1, true);
+    let mut subject = subject(1, true);
+    // A point has 16 bits for its number.
+    Arc::make_mut(&mut subject).skeleton.segments[0].points[13].id = 300;
     for split in [None, Some(300), Some(0)] {
         let options = EncoderOptions {
             split,
             ..options(&[MessageType::SCALE])
         };
         let datagrams = encode(options, &subject);
+        let regular = |bytes| Datagram::decode(bytes).unwrap().quirks.is_empty();
+        assert!(datagrams.iter().all(regular));
         let mut skeleton = subject.skeleton.clone();
         for segment in &mut skeleton.segments {
             segment.origin = None;
@@ -128,7 +133,7 @@ fn assert_same_segment(found: &Segment, expected: &Segment) {
 #[test]
 fn a_skeleton_without_points_ends_with_an_empty_datagram() {
     let mut subject = object(1);
-    let skeleton = &mut std::sync::Arc::make_mut(&mut subject).skeleton;
+    let skeleton = &mut Arc::make_mut(&mut subject).skeleton;
     skeleton.segments[0].origin = Some(posewire_motion::DVec3::Z);
     let datagrams = encode(options(&[MessageType::SCALE]), &subject);
     let found = datagrams

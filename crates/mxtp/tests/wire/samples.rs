@@ -2,7 +2,7 @@
 
 use posewire_mxtp::body::{
     AngularSegment, Body, CenterOfMass, CenterOfMassPosition, EulerSegment, JointAngles, LinearSegment, Meta,
-    PointPosition, QuaternionSegment, ScaleBuffer, ShortTracker, TimeCode, Tracker, UnitySegment,
+    PointPosition, QuaternionSegment, ScaleBuffer, ScalePoint, ShortTracker, TimeCode, Tracker, UnitySegment,
 };
 use posewire_mxtp::ids::{JOINTS, PointId, SegmentCounts, SegmentId, TRACKER_SEGMENTS};
 use posewire_mxtp::{Datagram, DatagramCounter, Header, MessageType};
@@ -107,10 +107,19 @@ pub(crate) fn null_pose() -> ScaleBuffer {
 pub(crate) fn scale_points() -> ScaleBuffer {
     let mut scale = ScaleBuffer::new();
     for (n, name) in ["pHipOrigin", "pRightASI", "pSacrum"].into_iter().enumerate() {
-        let id = PointId::new(SegmentId(1), n as u8);
-        scale.push_point(id, name, n as u32, vector(1, n as u32));
+        scale.push_point(&scale_point(n as u16, name));
     }
     scale
+}
+
+fn scale_point(local: u16, name: &str) -> ScalePoint<'_> {
+    ScalePoint {
+        segment: 1,
+        local,
+        name: name.into(),
+        flags: local.into(),
+        position: vector(1, local.into()),
+    }
 }
 
 /// A Rev N header.
@@ -261,7 +270,7 @@ fn quirky() -> Vec<(String, Vec<u8>)> {
     let mut points = points();
     points[0] = PointPosition::new(PointId(113), vector(1, 13));
     let mut both = null_pose();
-    both.push_point(PointId::new(SegmentId(1), 0), "pHipOrigin", 0, vector(1, 0));
+    both.push_point(&scale_point(0, "pHipOrigin"));
     let scale = null_pose();
     [
         ("payload_size", with(&|b| b[23] = 1)),
