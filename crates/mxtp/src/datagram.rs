@@ -3,8 +3,7 @@
 use std::fmt;
 
 use crate::body::Body;
-use crate::ids::SegmentCounts;
-use crate::{DatagramCounter, Error, Header, MessageType, Quirk, Quirks, Revision};
+use crate::{Error, Header, Quirk, Quirks, Revision};
 
 /// A datagram (MV0305 2.4), borrowed from its bytes.
 ///
@@ -86,24 +85,6 @@ impl<'a> Datagram<'a> {
         out.extend_from_slice(&self.header.encode());
         self.body.encode(out);
         out.extend_from_slice(self.trailing);
-    }
-
-    /// The character's segment counts: the header's, or for a Rev J pose what its items tell.
-    pub fn segment_counts(&self) -> Option<SegmentCounts> {
-        if self.header.body_segments != 0 {
-            return Some(self.header.segment_counts());
-        }
-        let whole_pose = self.header.counter == DatagramCounter::SINGLE
-            && matches!(
-                self.header.message_type,
-                MessageType::EULER
-                    | MessageType::QUATERNION
-                    | MessageType::UNITY
-                    | MessageType::LINEAR
-                    | MessageType::ANGULAR
-            );
-        let items = self.body.items().filter(|_| whole_pose)?;
-        SegmentCounts::from_items(items)
     }
 }
 

@@ -142,13 +142,6 @@ fn the_ids_say_when_positions_count() {
 }
 
 #[test]
-fn an_old_pose_tells_its_segments_by_their_number() {
-    let old = sample("02_props_fingers_rev_j");
-    let counts = Datagram::decode(&old).unwrap().segment_counts();
-    assert_eq!(counts, Some(SegmentCounts::new(2, true)));
-}
-
-#[test]
 fn too_much_for_a_header_is_an_error() {
     let many = vec![samples::quaternions([1])[0]; 256];
     let error = Error::TooLarge {
