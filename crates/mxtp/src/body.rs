@@ -50,7 +50,7 @@ pub enum Body<'a> {
     Quaternion(&'a [QuaternionSegment]),
     /// Type 03.
     Points(&'a [PointPosition]),
-    /// Type 05, in the order of [`UNITY_ORDER`](crate::ids::UNITY_ORDER).
+    /// Type 05, in the order of [`UNITY_ORDER`](posewire_motion::standard::UNITY_ORDER).
     Unity(&'a [UnitySegment]),
     /// Type 12.
     Meta(Meta<'a>),

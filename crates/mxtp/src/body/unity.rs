@@ -10,7 +10,7 @@ use crate::ids::SegmentId;
 ///
 /// Left-handed, Y up, metres. The pelvis is global; the other segments have a rotation local to
 /// their parent and a position relative to it. The segments come in the order of
-/// [`UNITY_ORDER`](crate::ids::UNITY_ORDER) and are numbered 1 to 23 in that order.
+/// [`UNITY_ORDER`](posewire_motion::standard::UNITY_ORDER) and are numbered 1 to 23 in that order.
 ///
 /// | offset | bytes | field |
 /// |---|---|---|
