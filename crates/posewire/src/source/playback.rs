@@ -156,8 +156,7 @@ impl Playback {
             return true;
         }
         let offset = timeline.offset(place);
-        let ends = |duration| offset.as_secs_f64() / self.options.speed >= Duration::as_secs_f64(&duration);
-        if self.options.duration.is_some_and(ends) || !pacer.wait(offset) {
+        if self.is_over(offset, pacer) || !pacer.wait(offset) {
             return false;
         }
         let due = pacer.deadline(offset);
@@ -169,6 +168,17 @@ impl Playback {
             });
         }
         outlet.flush()
+    }
+
+    /// Whether the sample at `offset` is due after the end. Those due before it are sent even when that is a little late,
+    /// but a machine that cannot keep up does not go on for ever.
+    fn is_over(&self, offset: Duration, pacer: &Pacer) -> bool {
+        let Some(duration) = self.options.duration else {
+            return false;
+        };
+        let late = |start: Instant| start.elapsed() >= duration.saturating_add(GRACE);
+        offset.as_secs_f64() / self.options.speed >= duration.as_secs_f64()
+            || pacer.deadline(Duration::ZERO).is_some_and(late)
     }
 }
 
@@ -193,11 +203,12 @@ impl Timeline {
         }
     }
 
-    /// How many samples after the playback's start this one is.
+    /// How many samples after the playback's start this one is; one from before the first of its take is due with it.
     fn place(&mut self, frame: &Frame) -> u64 {
         let first = *self.first_sample.get_or_insert(frame.sample);
-        let place = self.past_samples + u64::from(frame.sample.wrapping_sub(first));
-        self.last_place = place;
+        let ahead = frame.sample.wrapping_sub(first) as i32;
+        let place = self.past_samples + u64::from(ahead.max(0).unsigned_abs());
+        self.last_place = self.last_place.max(place);
         place
     }
 
@@ -226,6 +237,8 @@ impl Timeline {
     }
 }
 
+/// How much later than asked a playback may end to send what was due before.
+const GRACE: Duration = Duration::from_secs(1);
 /// Keeps 30 of 60 from missing a sample because of the last bit of a division.
 const ROUNDING: f64 = 1e-9;
 
@@ -267,5 +280,22 @@ mod tests {
         timeline.carry_on(&mut frame);
         assert_eq!(frame.sample, 11);
         assert_eq!(timeline.offset(60), Duration::from_secs(1));
+    }
+
+    #[test]
+    fn a_take_out_of_order_is_not_waited_for() {
+        let mut timeline = Timeline::new(60.0);
+        let mut frame = Frame::new(Arc::new(Subject::new("Ada", Skeleton::default())));
+        for (sample, place) in [(5, 0), (6, 1), (2, 0), (3, 0), (7, 2), (6, 1)] {
+            frame.sample = sample;
+            assert_eq!(timeline.place(&frame), place);
+        }
+        assert!(timeline.next_round());
+        frame.sample = 5;
+        assert_eq!(
+            timeline.place(&frame),
+            3,
+            "the next round begins after the furthest sample"
+        );
     }
 }
