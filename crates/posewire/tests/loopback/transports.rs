@@ -109,7 +109,10 @@ fn a_streamer_connects_again_when_the_receiver_comes_back() {
     stop.stop();
     session.wait().unwrap();
     assert!(gathered.frames[0].sample > 0);
-    assert!(progress.lock().unwrap().targets[0].dropped > 0, "what came while nobody was there is counted");
+    assert!(
+        progress.lock().unwrap().targets[0].dropped > 0,
+        "what came while nobody was there is counted"
+    );
 }
 
 #[test]
@@ -132,4 +135,21 @@ fn a_multicast_group_is_joined_on_the_named_interface() {
     let sink = MxtpSink::open(std::slice::from_ref(&receiver.endpoint), types("02,12,13,25")).unwrap();
     let progress = play(WALK, &seconds(0.5), sink);
     assert_same_motion(&receiver.finish(progress.frames));
+}
+
+#[test]
+fn a_peer_that_came_to_us_may_leave_without_loss() {
+    let listen: Endpoint = "mxtp+tcp://127.0.0.1:0?mode=listen".parse().unwrap();
+    let sink = MxtpSink::open(&[listen], types("02,12,13")).unwrap();
+    let (progress, stop) = (sink.progress(), Stop::new());
+    let ours = progress.lock().unwrap().targets[0].endpoint.clone();
+    let source = Source::open(&WALK.parse().unwrap(), &PlaybackOptions::default()).unwrap();
+    let session = Session::start(source, vec![Box::new(sink)], stop.clone());
+    for _ in 0..2 {
+        let gathered = Receiver::start(&ours.replace("listen", "connect")).finish(20);
+        assert!(gathered.frames.len() >= 20);
+    }
+    stop.stop();
+    session.wait().unwrap();
+    assert_eq!(progress.lock().unwrap().lost(), 0);
 }

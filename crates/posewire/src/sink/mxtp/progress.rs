@@ -36,6 +36,6 @@ pub struct TargetProgress {
     pub congested: u64,
     /// UDP datagrams that the system refused.
     pub failed: u64,
-    /// Samples that a TCP peer took too slowly, or that came while it was away.
+    /// Samples that a TCP peer took too slowly, or that came while one that we connect to was away.
     pub dropped: u64,
 }

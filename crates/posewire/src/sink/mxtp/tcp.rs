@@ -1,10 +1,10 @@
 //! A TCP target: each peer has a queue and a thread of its own.
 
-use crate::Result;
 use crate::endpoint::{TcpAddress, TcpMode};
 use crate::net::{self, Backoff, TcpConnection, TcpIncoming};
 use crate::queue::{Consumer, Policy, Producer, bounded};
 use crate::stop::Stop;
+use crate::{Error, Result};
 use posewire_mxtp::motion::Datagrams;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 pub(super) struct TcpTarget {
     peers: Arc<Peers>,
     connecting: Option<JoinHandle<()>>,
-    /// The port that we listen on; `None` where we promised to connect, and samples count as dropped while nobody is there.
+    /// The port that we listen on, if we do.
     port: Option<u16>,
 }
 
@@ -26,8 +26,9 @@ struct Sample {
     datagrams: u64,
 }
 
-#[derive(Default)]
 struct Peers {
+    /// Whether we connect: then what comes while the peer is away is a loss. A peer that came to us may leave.
+    expected: bool,
     /// No new ones are taken; those that are there get what is queued until the limit.
     ending: Stop,
     queues: Mutex<Vec<Producer<Sample>>>,
@@ -38,9 +39,10 @@ struct Peers {
 
 impl TcpTarget {
     pub(super) fn open(address: &TcpAddress) -> Result<Self> {
-        let peers: Arc<Peers> = Arc::default();
+        let listens = address.mode == Some(TcpMode::Listen);
+        let peers = Arc::new(Peers::new(!listens));
         let serving = Arc::clone(&peers);
-        if address.mode == Some(TcpMode::Listen) {
+        if listens {
             let incoming = net::listen(address)?;
             let port = Some(incoming.local_address().port());
             let connecting = Some(thread::spawn(move || accept_peers(&incoming, &serving)));
@@ -84,17 +86,19 @@ impl TcpTarget {
     pub(super) fn send(&mut self, datagrams: &Datagrams) {
         let mut queues = self.peers.lock();
         if queues.is_empty() {
-            self.peers
-                .dropped
-                .fetch_add(u64::from(self.port.is_none()), Ordering::Relaxed);
+            self.peers.count_missed(1);
             return;
         }
         let sample = Sample {
             bytes: datagrams.as_bytes().into(),
             datagrams: datagrams.len() as u64,
         };
-        // A queue closes with its connection; its thread has counted what it dropped.
-        queues.retain(|queue| queue.push(sample.clone()).is_ok());
+        // A queue closes with its connection, whose thread counts what was in it; this sample came too late for that.
+        queues.retain(|queue| {
+            let pushed = queue.push(sample.clone());
+            self.peers.count_missed(u64::from(pushed.is_err()));
+            pushed.is_ok()
+        });
     }
 
     /// Lets every peer have what is queued, within [`FLUSH_LIMIT`].
@@ -110,6 +114,24 @@ impl TcpTarget {
 }
 
 impl Peers {
+    fn new(expected: bool) -> Self {
+        Self {
+            expected,
+            ending: Stop::new(),
+            queues: Mutex::default(),
+            open: AtomicUsize::new(0),
+            written: AtomicU64::new(0),
+            dropped: AtomicU64::new(0),
+        }
+    }
+
+    /// Counts samples that came while their peer was away.
+    fn count_missed(&self, samples: u64) {
+        if self.expected {
+            self.dropped.fetch_add(samples, Ordering::Relaxed);
+        }
+    }
+
     fn lock(&self) -> MutexGuard<'_, Vec<Producer<Sample>>> {
         self.queues.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -129,23 +151,40 @@ impl Peers {
     /// Writes what is queued until the queue closes, the connection breaks or the flush limit passes.
     fn serve(&self, mut connection: TcpConnection, queue: &Consumer<Sample>) {
         let peer = connection.peer();
-        if let Err(error) = self.write_all(&mut connection, queue) {
-            tracing::warn!(%peer, %error, "connection lost");
-        }
+        let mut samples = Vec::new();
+        let outcome = self.write_all(&mut connection, queue, &mut samples);
         queue.close();
-        let left = queue.len() as u64 + queue.dropped();
-        self.dropped.fetch_add(left, Ordering::Relaxed);
+        let left = (samples.len() + queue.len()) as u64;
+        match outcome {
+            Ok(()) => {}
+            Err(error @ Error::Stalled { .. }) => {
+                tracing::warn!(%peer, %error, "samples dropped at the end");
+                self.dropped.fetch_add(left, Ordering::Relaxed);
+            }
+            Err(error) => {
+                tracing::warn!(%peer, %error, "connection lost");
+                self.count_missed(left);
+            }
+        }
+        self.dropped.fetch_add(queue.dropped(), Ordering::Relaxed);
         self.lock().retain(|producer| !producer.is_closed());
         self.open.fetch_sub(1, Ordering::Relaxed);
     }
 
-    fn write_all(&self, connection: &mut TcpConnection, queue: &Consumer<Sample>) -> Result<()> {
-        let mut samples = Vec::new();
+    /// Writes sample by sample; the one that failed stays in `samples`.
+    fn write_all(
+        &self,
+        connection: &mut TcpConnection,
+        queue: &Consumer<Sample>,
+        samples: &mut Vec<Sample>,
+    ) -> Result<()> {
         let mut flush_until = None;
-        while queue.drain_at_most(1, &mut samples, Duration::from_hours(1)).is_open() {
-            for sample in samples.drain(..) {
-                self.write(connection, &sample, &mut flush_until)?;
+        while queue.drain_at_most(1, samples, Duration::from_hours(1)).is_open() {
+            for sample in &*samples {
+                self.write(connection, sample, &mut flush_until)?;
+                self.written.fetch_add(sample.datagrams, Ordering::Relaxed);
             }
+            samples.clear();
         }
         connection.finish()
     }
@@ -154,16 +193,15 @@ impl Peers {
     fn write(&self, connection: &mut TcpConnection, sample: &Sample, flush_until: &mut Option<Instant>) -> Result<()> {
         let mut rest = &*sample.bytes;
         while !rest.is_empty() {
-            let written = connection.write_some(rest, Duration::from_millis(100))?;
-            rest = rest.get(written..).unwrap_or_default();
             if self.ending.is_stopped() {
                 let until = *flush_until.get_or_insert_with(|| Instant::now() + FLUSH_LIMIT);
-                if Instant::now() >= until && !rest.is_empty() {
+                if Instant::now() >= until {
                     return Err(connection.stalled(sample.bytes.len() - rest.len(), sample.bytes.len(), FLUSH_LIMIT));
                 }
             }
+            let written = connection.write_some(rest, Duration::from_millis(100))?;
+            rest = rest.get(written..).unwrap_or_default();
         }
-        self.written.fetch_add(sample.datagrams, Ordering::Relaxed);
         Ok(())
     }
 }
@@ -173,7 +211,7 @@ fn keep_connected(address: &TcpAddress, first: TcpConnection, queue: &Consumer<S
     peers.serve(first, queue);
     let mut backoff = Backoff::default();
     while !peers.ending.wait(backoff.next_delay()) {
-        if let Ok(connection) = net::connect(address, CONNECT_TIMEOUT) {
+        if let Ok(connection) = net::connect(address, RECONNECT_TIMEOUT) {
             backoff.reset();
             peers.serve(connection, &peers.welcome());
         }
@@ -205,5 +243,7 @@ fn accept_peers(incoming: &TcpIncoming, peers: &Arc<Peers>) {
 /// About a second of a 240 Hz stream.
 const QUEUED_SAMPLES: usize = 256;
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(5);
+/// An attempt cannot be cut short, so the end of the stream may have to wait for one.
+const RECONNECT_TIMEOUT: Duration = Duration::from_secs(1);
 const FLUSH_LIMIT: Duration = Duration::from_secs(2);
 const MAX_PEERS: usize = 16;
