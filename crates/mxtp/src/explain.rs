@@ -126,11 +126,11 @@ impl fmt::Display for Explanation {
 mod tests {
     use super::*;
     use crate::MessageType;
-    use crate::body::{Body, QuaternionSegment, ScaleBuffer};
-    use crate::ids::{SegmentCounts, SegmentId};
+    use crate::body::{Body, JointAngles, QuaternionSegment, ScaleBuffer, UnitySegment};
+    use crate::ids::{JOINTS, SegmentCounts, SegmentId};
 
     fn bytes_of(body: Body<'_>) -> Vec<u8> {
-        let header = Header::rev_n(MessageType::META, 6681, 27_837, SegmentCounts::BODY);
+        let header = Header::rev_n(MessageType::META, 6681, 27_837, SegmentCounts::new(0, true));
         let mut bytes = Vec::new();
         Datagram::new(header, body).unwrap().encode(&mut bytes);
         bytes
@@ -154,6 +154,32 @@ mod tests {
         assert_eq!((&y.value, y.unit), (&Value::Float(1.5), Some("m")));
         assert_eq!(y.section, "MV0305 2.5.3");
         assert_eq!(explanation.quirks, Quirks::NONE);
+    }
+
+    #[test]
+    fn segments_and_joints_are_named() {
+        let note = |body, name: &str| {
+            let fields = explain(&bytes_of(body)).fields;
+            let field = fields.into_iter().find(|field| field.name == name).unwrap();
+            field.note.unwrap().into_owned()
+        };
+        let at = |id| QuaternionSegment::new(SegmentId(id), [0.0; 3], [1.0, 0.0, 0.0, 0.0]);
+        let poses = [at(10), at(24), at(63)];
+        let pose = |name| note(Body::Quaternion(&poses), name);
+        assert_eq!(pose("segments[0].id"), "RightForeArm");
+        assert_eq!(pose("segments[1].id"), "LeftCarpus");
+        assert_eq!(pose("segments[2].id"), "RightFifthDistalPhalange");
+        let unity = [2, 24].map(|id| UnitySegment::new(SegmentId(id), [0.0; 3], [0.0; 4]));
+        assert_eq!(note(Body::Unity(&unity), "segments[0].id"), "RightUpperLeg");
+        assert_eq!(
+            note(Body::Unity(&unity), "segments[1].id"),
+            "no segment that the header counts"
+        );
+        let joints = JOINTS.map(|(parent, child)| JointAngles::new(parent, child, [0.0; 3]));
+        let joint = |name| note(Body::JointAngles(&joints), name);
+        assert_eq!(joint("joints[8].parent"), "RightUpperArm, point 2");
+        assert_eq!(joint("joints[8].angles.z"), "jRightElbow, usually 9.2 to 10.1");
+        assert_eq!(joint("joints[27].angles.z"), "Vertical_T8, usually 1.0 to 5.0");
     }
 
     #[test]

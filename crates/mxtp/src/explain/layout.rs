@@ -4,6 +4,10 @@ use super::walk::Walk;
 use crate::body::Body;
 use crate::ids::{BODY_SEGMENTS, JOINTS, Place, PointId, SegmentCounts, SegmentId};
 use crate::{DatagramCounter, Header, MessageType, Revision};
+use posewire_motion::standard::{
+    BODY_SEGMENTS as BODY_NAMES, ERGONOMIC_ANGLES, FINGER_SEGMENTS, JOINTS as JOINT_NAMES, UNITY_ORDER,
+};
+use std::borrow::Cow;
 
 /// The fields of a record: a name for the list, and each field with its unit.
 struct Record {
@@ -124,7 +128,7 @@ fn records(walk: &mut Walk<'_>, header: &Header, record: &Record, body: Option<&
             field(walk, header, *kind, &format!("{path}.{name}"), unit)?;
         }
         if record.list == "joints" {
-            number_joint(walk, index);
+            name_joint(walk, index);
         }
     }
     Some(())
@@ -134,13 +138,11 @@ fn field(walk: &mut Walk<'_>, header: &Header, kind: Kind, path: &str, unit: &'s
     match kind {
         Kind::Segment => {
             let id = SegmentId(walk.long(path)?);
-            if header.message_type != MessageType::UNITY {
-                walk.note(place(header, id));
-            }
+            walk.note(segment_name(header, id));
         }
         Kind::Point => {
             let id = PointId(walk.long(path)?);
-            walk.note(format!("segment {}, point {}", id.segment(), id.local()));
+            walk.note(format!("{}, point {}", segment_name(header, id.segment()), id.local()));
         }
         Kind::Vector => floats(walk, path, &["x", "y", "z"], unit)?,
         Kind::Quaternion => floats(walk, path, &["w", "x", "y", "z"], unit)?,
@@ -156,8 +158,12 @@ fn floats(walk: &mut Walk<'_>, path: &str, axes: &[&str], unit: &'static str) ->
     Some(())
 }
 
-/// Says which kind of segment an ID means.
-fn place(header: &Header, id: SegmentId) -> String {
+/// The name of the segment that an ID usually means.
+fn segment_name(header: &Header, id: SegmentId) -> Cow<'static, str> {
+    if header.message_type == MessageType::UNITY {
+        let place = (id.0 as usize).checked_sub(1).and_then(|index| UNITY_ORDER.get(index));
+        return place.map_or(UNKNOWN.into(), |place| BODY_NAMES[*place].name.into());
+    }
     let counts = match header.revision() {
         Revision::N => header.segment_counts(),
         Revision::J => SegmentCounts::from_items(header.items.into()).unwrap_or_default(),
@@ -167,18 +173,25 @@ fn place(header: &Header, id: SegmentId) -> String {
         ..counts
     };
     match counts.place(id) {
-        Some(Place::Body(index)) => format!("body segment {index}"),
-        Some(Place::Prop(index)) => format!("prop {index}"),
-        Some(Place::LeftHand(index)) => format!("left hand segment {index}"),
-        Some(Place::RightHand(index)) => format!("right hand segment {index}"),
-        None => "no segment that the header counts".to_owned(),
+        Some(Place::Body(index)) => BODY_NAMES[usize::from(index)].name.into(),
+        Some(Place::Prop(index)) => format!("prop {}", index + 1).into(),
+        Some(Place::LeftHand(index)) => finger_name("Left", index),
+        Some(Place::RightHand(index)) => finger_name("Right", index),
+        None => UNKNOWN.into(),
     }
 }
 
+fn finger_name(side: &str, index: u8) -> Cow<'static, str> {
+    let segment = FINGER_SEGMENTS.get(usize::from(index));
+    segment.map_or(UNKNOWN.into(), |segment| format!("{side}{}", segment.name).into())
+}
+
 /// Notes, on the last field of a joint, which joint its position makes it.
-fn number_joint(walk: &mut Walk<'_>, index: usize) {
-    if let Some((parent, child)) = JOINTS.get(index) {
-        walk.note(format!("joint {}, usually {parent} to {child}", index + 1));
+fn name_joint(walk: &mut Walk<'_>, index: usize) {
+    let ergonomic = ERGONOMIC_ANGLES.iter().map(|angle| angle.name);
+    let mut names = JOINT_NAMES.iter().map(|joint| joint.name).chain(ergonomic);
+    if let (Some(name), Some((parent, child))) = (names.nth(index), JOINTS.get(index)) {
+        walk.note(format!("{name}, usually {parent} to {child}"));
     }
 }
 
@@ -244,6 +257,8 @@ fn opaque(walk: &mut Walk<'_>) -> Option<()> {
     walk.note("no layout known for this message type");
     Some(())
 }
+
+const UNKNOWN: &str = "no segment that the header counts";
 
 const EULER: Record = Record {
     list: "segments",
