@@ -77,7 +77,7 @@ impl Timecode {
             0.0
         };
         let whole = (u64::from(hours) * 60 + u64::from(minutes)) * 60 + u64::from(seconds);
-        Self::from_milliseconds(whole * 1000 + milliseconds as u64)
+        Self::from_milliseconds((whole * 1000).saturating_add(milliseconds as u64))
     }
 
     /// Milliseconds since midnight, less than 86,400,000.
@@ -160,6 +160,12 @@ mod tests {
     #[test]
     fn a_frame_number_becomes_milliseconds() {
         assert_eq!(Timecode::from_frame(4, 17, 11, 30, 60.0).to_string(), "04:17:11.500");
+        assert_eq!(
+            Timecode::from_frame(4, 17, 11, 30, f64::NAN).to_string(),
+            "04:17:11.000"
+        );
+        let most = Timecode::from_frame(u32::MAX, u32::MAX, u32::MAX, u32::MAX, f64::MIN_POSITIVE);
+        assert!(u64::from(most.milliseconds()) < MILLISECONDS_PER_DAY);
     }
 
     #[test]
