@@ -97,6 +97,62 @@ impl Frame {
         }
     }
 
+    /// Makes the frame an empty sample 0 of the same subject again. Its lists keep their memory.
+    pub fn clear(&mut self) {
+        // Named one by one, so that a new field cannot be forgotten.
+        let Self {
+            subject: _,
+            sample,
+            time,
+            received,
+            timecode,
+            position,
+            orientation,
+            velocity,
+            acceleration,
+            angular_velocity,
+            angular_acceleration,
+            joint_angles,
+            joint_angles_xzy,
+            ergonomic_angles,
+            ergonomic_angles_xzy,
+            sensor_orientation,
+            sensor_free_acceleration,
+            sensor_acceleration,
+            sensor_angular_velocity,
+            sensor_magnetic_field,
+            center_of_mass,
+            contacts,
+            markers,
+            events,
+        } = self;
+        (*sample, *time) = (0, Duration::ZERO);
+        (*received, *timecode, *center_of_mass) = (None, None, None);
+        for rotations in [orientation, sensor_orientation] {
+            rotations.clear();
+        }
+        for vectors in [
+            position,
+            velocity,
+            acceleration,
+            angular_velocity,
+            angular_acceleration,
+            joint_angles,
+            joint_angles_xzy,
+            ergonomic_angles,
+            ergonomic_angles_xzy,
+            sensor_free_acceleration,
+            sensor_acceleration,
+            sensor_angular_velocity,
+            sensor_magnetic_field,
+        ] {
+            vectors.clear();
+        }
+        contacts.clear();
+        markers.clear();
+        events.clear();
+    }
+
     /// The pose of the segment at a place of the skeleton, when both its position and its orientation are known.
     pub fn pose(&self, segment: usize) -> Option<Pose> {
         let position = self.position.get(segment).copied().flatten()?;
@@ -181,6 +237,23 @@ mod tests {
             found: 22,
         };
         assert_eq!(frame.check(), Err(expected));
+    }
+
+    #[test]
+    fn a_cleared_frame_is_as_new() {
+        let subject = Arc::new(Subject::new("Ada", Skeleton::standard(0, false)));
+        let mut frame = Frame::new(subject.clone());
+        frame.sample = 7;
+        frame.time = Duration::from_secs(1);
+        frame.received = Some(Stamp(1));
+        frame.timecode = Some(Timecode::from_milliseconds(1));
+        frame.orientation = vec![Some(DQuat::IDENTITY); 23];
+        frame.joint_angles_xzy = vec![None; 22];
+        frame.contacts = vec![true; 4];
+        frame.events = vec!["clap".to_owned()];
+        frame.clear();
+        assert_eq!(frame, Frame::new(subject));
+        assert!(frame.orientation.capacity() >= 23);
     }
 
     #[test]

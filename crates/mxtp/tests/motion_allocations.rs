@@ -32,7 +32,8 @@ fn frame() -> Frame {
 }
 
 fn receive(frame: &mut Frame, datagrams: &Datagrams) {
-    let mut filler = Filler::begin(frame);
+    frame.clear();
+    let mut filler = Filler::new();
     for bytes in datagrams.iter() {
         let datagram = Datagram::decode(bytes).unwrap();
         filler.fill(frame, &datagram.header, &datagram.body);

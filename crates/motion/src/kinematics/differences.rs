@@ -10,7 +10,8 @@ use std::time::Duration;
 ///
 /// Filled are [`velocity`](Frame::velocity), [`acceleration`](Frame::acceleration),
 /// [`angular_velocity`](Frame::angular_velocity), [`angular_acceleration`](Frame::angular_acceleration), those of the
-/// centre of mass, and the angular velocity that [sensors](Frame::sensor_angular_velocity) measure. A section that a frame has already stays as it is; an entry that is not tracked stays `None`.
+/// centre of mass, and the angular velocity that [sensors](Frame::sensor_angular_velocity) measure. A section that a
+/// frame has already stays as it is; an entry that is not tracked stays `None`.
 ///
 /// Inside a run of samples differences are central. At both of its ends they are one-sided, over the same three samples:
 /// exact for a constant acceleration. A run ends where the sample number jumps back, repeats, or jumps ahead too far; a

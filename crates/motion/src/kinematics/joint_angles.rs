@@ -7,9 +7,9 @@ use glam::{DQuat, DVec3};
 /// The angles of every joint of `skeleton`: (x, y, z) = (abduction, internal rotation, flexion), rad, as MVN gives them.
 ///
 /// `orientation` holds, per segment, the rotation from its axes to the world's (canonical: the identity in the T-pose);
-/// [`Segment::isb`](crate::Segment::isb) turns it to the ISB's axes. `out` gets an entry for each joint, `None` where one of the two
-/// segments is not tracked. MXTP type 20 and MVNX `jointAngle` are [`Sequence::Zxy`], MVNX `jointAngleXZY` is
-/// [`Sequence::Xzy`].
+/// [`Segment::isb`](crate::Segment::isb) turns it to the ISB's axes. `out` gets an entry for each joint, `None` where
+/// one of the two segments is not tracked. MXTP type 20 and MVNX `jointAngle` are [`Sequence::Zxy`], MVNX
+/// `jointAngleXZY` is [`Sequence::Xzy`].
 ///
 /// The signs follow from the joint's name, as anatomy has them: `Right` and `Left` mirror x and y, and a `Knee` or a
 /// `BallFoot` flexes the other way round. A joint that names no side, an unknown one included, has the signs of the spine.

@@ -64,7 +64,8 @@ impl OpenSample {
     pub(super) fn restart(&mut self, subject: &Arc<Subject>) {
         let (number, time, opened) = (self.number, self.time, self.opened);
         let frame = Arc::make_mut(&mut self.frame);
-        self.filler = Filler::begin(frame);
+        frame.clear();
+        self.filler = Filler::new();
         frame.sample = number;
         frame.time = time;
         frame.received = Some(opened);

@@ -45,32 +45,8 @@ pub(super) struct Part {
 }
 
 impl Filler {
-    /// For a frame without data, as [`Frame::new`] makes it.
+    /// For a frame without data, as [`Frame::new`] makes it and [`Frame::clear`] leaves it.
     pub fn new() -> Self {
-        Self::default()
-    }
-
-    /// Empties a frame that was used before, for the next sample: its lists keep their memory and its subject stays.
-    pub fn begin(frame: &mut Frame) -> Self {
-        (frame.received, frame.timecode, frame.center_of_mass) = (None, None, None);
-        frame.position.clear();
-        frame.orientation.clear();
-        frame.velocity.clear();
-        frame.acceleration.clear();
-        frame.angular_velocity.clear();
-        frame.angular_acceleration.clear();
-        frame.joint_angles.clear();
-        frame.joint_angles_xzy.clear();
-        frame.ergonomic_angles.clear();
-        frame.ergonomic_angles_xzy.clear();
-        frame.sensor_orientation.clear();
-        frame.sensor_free_acceleration.clear();
-        frame.sensor_acceleration.clear();
-        frame.sensor_angular_velocity.clear();
-        frame.sensor_magnetic_field.clear();
-        frame.contacts.clear();
-        frame.markers.clear();
-        frame.events.clear();
         Self::default()
     }
 

@@ -109,7 +109,7 @@ proptest! {
         datagrams in proptest::collection::vec((any_datagram(), proptest::option::of(0..300_usize)), 1..8),
     ) {
         let mut frame = Frame::new(subject);
-        let mut filler = Filler::begin(&mut frame);
+        let mut filler = Filler::new();
         for (bytes, first) in &datagrams {
             if let Ok(datagram) = Datagram::decode(bytes) {
                 filler.fill_part(&mut frame, &datagram.header, &datagram.body, *first);

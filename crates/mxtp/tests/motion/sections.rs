@@ -125,18 +125,6 @@ fn a_time_code_that_is_none_leaves_the_frame_without() {
 }
 
 #[test]
-fn a_frame_used_again_keeps_nothing_of_the_sample_before() {
-    let subject = subject(0, false);
-    let mut frame = full_frame(&subject, 3);
-    frame.markers.push(crate::frames::marker(1, DVec3::X));
-    frame.events.push("mark".to_owned());
-    Filler::begin(&mut frame);
-    let mut empty = Frame::new(subject);
-    (empty.sample, empty.time) = (frame.sample, frame.time);
-    assert_eq!(frame, empty);
-}
-
-#[test]
 fn messages_about_the_subject_change_no_frame() {
     let subject = subject(0, false);
     let mut frame = full_frame(&subject, 4);
