@@ -36,6 +36,7 @@ mod error;
 mod explain;
 mod framing;
 mod header;
+mod message_type;
 mod quirk;
 mod sequence;
 
@@ -44,6 +45,7 @@ pub use datagram::Datagram;
 pub use error::Error;
 pub use explain::{Explanation, Field, Value, explain};
 pub use framing::Framer;
-pub use header::{DatagramCounter, Header, MessageType, Revision};
+pub use header::{DatagramCounter, Header, Revision};
+pub use message_type::MessageType;
 pub use quirk::{Quirk, Quirks};
 pub use sequence::{Observation, ResetKind, Sequence, Tally};

@@ -1,6 +1,11 @@
 //! The sample counter of one stream: what is missing, late, duplicate, and when it starts anew.
 
+mod pace;
+mod runs;
+
+use pace::Pace;
 use posewire_motion::Stamp;
+use runs::{EqualSteps, OldRun};
 use std::collections::VecDeque;
 use std::time::Duration;
 
@@ -243,84 +248,6 @@ impl Sequence {
     /// How many samples are missing between two that are `step` apart.
     fn missing_in(&self, step: u32) -> u32 {
         self.stride.map_or(0, |stride| (step / stride).saturating_sub(1))
-    }
-}
-
-/// Equal steps in a row that are not the stride.
-#[derive(Clone, Copy, Debug, Default)]
-struct EqualSteps {
-    step: u32,
-    count: usize,
-}
-
-impl EqualSteps {
-    /// Adds a step; says how many in a row are equal.
-    fn extend(&mut self, step: u32) -> usize {
-        self.count = if step == self.step { self.count + 1 } else { 1 };
-        self.step = step;
-        self.count
-    }
-}
-
-/// Samples that are not new, in increasing order, with no new one between them.
-#[derive(Clone, Copy, Debug, Default)]
-struct OldRun {
-    samples: [u32; LESSON],
-    count: usize,
-    /// The tally before the first of them.
-    before: Tally,
-}
-
-impl OldRun {
-    fn clear(&mut self) {
-        self.count = 0;
-    }
-
-    /// Adds a sample; true when there are enough to see that the counter went back.
-    fn extend(&mut self, sample: u32, tally: Tally) -> bool {
-        let step = self
-            .count
-            .checked_sub(1)
-            .map(|last| sample.wrapping_sub(self.samples[last]));
-        match step {
-            Some(0) => return false,
-            Some(1..HALF) => {}
-            _ => (self.count, self.before) = (0, tally),
-        }
-        self.samples[self.count] = sample;
-        self.count += 1;
-        self.count == LESSON
-    }
-}
-
-/// How fast the counter goes up in receive time.
-#[derive(Clone, Copy, Debug, Default)]
-struct Pace {
-    newest: Stamp,
-    nanoseconds_per_count: f64,
-    steps: u32,
-}
-
-impl Pace {
-    /// Follows the mean slowly, so that bursts even out; a pause of the sender counts little.
-    fn advance(&mut self, step: u32, now: Stamp) {
-        let measured = now.since(self.newest).as_nanos() as f64 / f64::from(step);
-        let limit = match self.steps {
-            0 => f64::INFINITY,
-            _ => (8.0 * self.nanoseconds_per_count).max(1e6),
-        };
-        self.steps = (self.steps + 1).min(64);
-        self.nanoseconds_per_count += (measured.min(limit) - self.nanoseconds_per_count) / f64::from(self.steps);
-        self.newest = now;
-    }
-
-    /// How far the counter should have gone since the newest sample; 0 when the receive times say nothing.
-    fn counts_until(&self, now: Stamp) -> f64 {
-        if self.nanoseconds_per_count > 0.0 {
-            now.since(self.newest).as_nanos() as f64 / self.nanoseconds_per_count
-        } else {
-            0.0
-        }
     }
 }
 
