@@ -144,7 +144,7 @@ pub(crate) struct Monitor {
     pub(crate) duration: Option<Duration>,
 
     /// Stop after so many samples, of all characters together.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) count: Option<u64>,
 }
 

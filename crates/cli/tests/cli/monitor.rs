@@ -1,6 +1,19 @@
 //! `posewire monitor` alone.
 
 use crate::program::Monitor;
+use std::net::UdpSocket;
+
+#[test]
+fn when_what_comes_is_not_mxtp_it_says_so() {
+    let monitor = Monitor::start(&["mxtp://127.0.0.1:0", "--json", "--duration", "3.9"]);
+    let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let target = monitor.endpoint.strip_prefix("mxtp://").unwrap();
+    socket.send_to(b"GET \x1b[2J", target).unwrap();
+    let ended = monitor.end();
+    assert_eq!((ended.code, ended.out.as_str()), (Some(0), ""));
+    assert!(ended.err.contains("1 datagram, none MXTP"), "{}", ended.err);
+    assert!(!ended.err.contains('\x1b'), "{:?}", ended.err);
+}
 
 #[test]
 fn when_nothing_comes_it_says_what_to_check() {

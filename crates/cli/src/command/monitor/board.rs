@@ -1,5 +1,6 @@
 //! The newest of everything, for whoever shows it.
 
+use crate::plain::{plural, printable};
 use posewire::queue::Policy;
 use posewire::stats::Statistics;
 use posewire::stop::Stop;
@@ -58,30 +59,50 @@ impl Board {
         self.lock().notice.clone()
     }
 
-    /// Whether any datagram has come yet, readable or not.
-    pub(super) fn has_heard(&self) -> bool {
+    /// How much has come that could be read, in no particular unit: what grows is heard.
+    pub(super) fn heard(&self) -> u64 {
         let newest = self.lock();
-        newest.samples > 0
-            || newest
-                .statistics
-                .as_ref()
-                .is_some_and(|statistics| statistics.datagrams > 0)
+        let statistics = newest.statistics.as_ref();
+        newest.samples + statistics.map_or(0, |all| all.datagrams.saturating_sub(all.malformed))
     }
 
-    /// What to check when nothing comes.
+    /// What to check when nothing comes that can be read.
     pub(super) fn hint(&self) -> String {
         let listening = &self.listening;
-        format!(
-            "nothing has come to {listening} yet. Check that\n\
-             - the sender streams to an address of this machine and to this port\n\
-             - no firewall keeps it away: UDP and TCP have rules of their own\n\
-             - both sides speak the same: mxtp:// is UDP, mxtp+tcp:// is TCP"
-        )
+        if self.heard() > 0 {
+            return format!("nothing more comes to {listening}: is the sender paused, or gone?");
+        }
+        match self.statistics() {
+            Some(all) if all.datagrams > 0 || all.skipped_bytes > 0 => unreadable(listening, &all),
+            _ => format!(
+                "nothing has come to {listening} yet. Check that\n\
+                 - the sender streams to an address of this machine and to this port\n\
+                 - no firewall keeps it away: UDP and TCP have rules of their own\n\
+                 - both sides speak the same: mxtp:// is UDP, mxtp+tcp:// is TCP"
+            ),
+        }
     }
 
     fn lock(&self) -> MutexGuard<'_, Newest> {
         self.newest.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// What has come and cannot be read, and what to check.
+fn unreadable(listening: &str, all: &Statistics) -> String {
+    let what = match &all.last_malformed {
+        Some(last) => format!(
+            "{}, none MXTP; the last: {}",
+            plural(all.datagrams, "datagram"),
+            printable(last)
+        ),
+        None => format!("{} without an MXTP datagram in them", plural(all.skipped_bytes, "byte")),
+    };
+    format!(
+        "what comes to {listening} cannot be read: {what}. Check that\n\
+         - it is the Network Streamer of MVN that sends to this port\n\
+         - no other program, as a broadcast, uses this port"
+    )
 }
 
 struct BoardSink(Board);
@@ -118,3 +139,45 @@ impl Sink for BoardSink {
 
 /// Four seconds of 16 people at 240 Hz.
 pub(super) const QUEUED_ITEMS: usize = 16_384;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use posewire_motion::Stamp;
+    use std::time::Duration;
+
+    #[test]
+    fn what_cannot_be_read_is_told_from_what_does_not_come() {
+        let board = Board::new("mxtp://127.0.0.1:9763".to_owned(), None, Stop::new());
+        let mut sink = board.sink();
+        assert!(
+            board
+                .hint()
+                .starts_with("nothing has come to mxtp://127.0.0.1:9763 yet")
+        );
+        let mut statistics = Statistics {
+            at: Stamp(0),
+            elapsed: Duration::from_secs(3),
+            ended: false,
+            datagrams: 5,
+            bytes: 50,
+            malformed: 5,
+            last_malformed: Some("found \x1b[2J".to_owned()),
+            skipped_bytes: 0,
+            kernel_dropped: 0,
+            characters_refused: 0,
+            subjects: Vec::new(),
+        };
+        sink.accept(&Item::Statistics(Arc::new(statistics.clone()))).unwrap();
+        assert_eq!(board.heard(), 0);
+        let hint = board.hint();
+        assert!(
+            hint.contains("5 datagrams, none MXTP; the last: found \\u{1b}[2J"),
+            "{hint}"
+        );
+        statistics.datagrams = 7;
+        sink.accept(&Item::Statistics(Arc::new(statistics))).unwrap();
+        assert_eq!(board.heard(), 2);
+        assert!(board.hint().starts_with("nothing more comes"));
+    }
+}

@@ -3,6 +3,7 @@
 mod board;
 mod page;
 mod print;
+mod silence;
 
 use super::End;
 use crate::cli::Monitor;
@@ -13,7 +14,8 @@ use posewire::source::PlaybackOptions;
 use posewire::stop::Stop;
 use posewire::{Session, Sink, Source};
 use print::{Format, Printer};
-use std::time::Duration;
+use silence::Silence;
+use std::time::{Duration, Instant};
 
 pub(super) fn run(arguments: &Monitor) -> anyhow::Result<End> {
     let stop = context::stop_on_interrupt()?;
@@ -56,7 +58,7 @@ pub(super) fn show(source: Source, view: View, count: Option<u64>, stop: &Stop) 
             say(format_args!("listening on {}", board.listening()));
             sinks.push(Box::new(Printer::new(format, count)));
             let session = Session::start(source, sinks, stop.clone());
-            warn_when_nothing_comes(&watched, &session, stop);
+            warn_of_silence(&watched, &session, stop);
             finish(session, &watched, view)
         }
         View::Page => {
@@ -86,20 +88,14 @@ fn finish(session: Session, board: &Board, view: View) -> anyhow::Result<End> {
     ))
 }
 
-/// Says once what to check when nothing has come for three seconds.
-fn warn_when_nothing_comes(board: &Board, session: &Session, stop: &Stop) {
-    let mut quiet = true;
-    let mut waited = Duration::ZERO;
+/// Says what to check whenever nothing that can be read has come for three seconds.
+fn warn_of_silence(board: &Board, session: &Session, stop: &Stop) {
+    let mut silence = Silence::new(Instant::now());
     while session.is_running() && !stop.wait(LOOK_EVERY) {
-        waited += LOOK_EVERY;
-        if quiet && waited >= QUIET_AFTER {
-            quiet = false;
-            if !board.has_heard() {
-                say(board.hint());
-            }
+        if silence.is_to_be_told(board.heard(), Instant::now()) {
+            say(board.hint());
         }
     }
 }
 
 const LOOK_EVERY: Duration = Duration::from_millis(50);
-const QUIET_AFTER: Duration = Duration::from_secs(3);

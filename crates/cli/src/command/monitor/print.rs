@@ -40,7 +40,9 @@ impl Printer {
             return Ok(());
         }
         self.left = self.left.map(|left| left - 1);
-        json::write(&mut self.out, &json::FrameRecord::new(frame))
+        json::write(&mut self.out, &json::FrameRecord::new(frame))?;
+        // Who reads the samples as they come wants each one now.
+        self.flush()
     }
 
     fn statistics(&mut self, statistics: &Statistics) -> Result<()> {
@@ -50,6 +52,10 @@ impl Printer {
                 json::statistics(statistics).try_for_each(|object| json::write(&mut self.out, &object))?;
             }
         }
+        self.flush()
+    }
+
+    fn flush(&mut self) -> Result<()> {
         self.out.flush().map_err(|error| broken(&error))
     }
 }
@@ -72,7 +78,7 @@ impl Sink for Printer {
     }
 
     fn finish(&mut self) -> Result<()> {
-        self.out.flush().map_err(|error| broken(&error))
+        self.flush()
     }
 }
 

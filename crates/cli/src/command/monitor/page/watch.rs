@@ -1,6 +1,7 @@
 //! From the board to a view: how old samples are, how fast bytes come, and when it has been quiet for too long.
 
 use super::super::board::Board;
+use super::super::silence::QUIET_AFTER;
 use super::view::{Character, Troubles, TypeRow, View};
 use posewire::stats::{Statistics, SubjectStatistics, TypeStatistics};
 use posewire_motion::Frame;
@@ -37,7 +38,7 @@ impl Watch {
             listening: board.listening().to_owned(),
             elapsed,
             notice: board.notice().map(|notice| notice.to_string()),
-            hint: (elapsed >= QUIET_AFTER && !board.has_heard()).then(|| board.hint()),
+            hint: (elapsed >= QUIET_AFTER && board.heard() == 0).then(|| board.hint()),
             characters: self.characters(now),
             datagrams_per_second: self.speed.0,
             bytes_per_second: self.speed.1,
@@ -141,8 +142,6 @@ fn troubles(statistics: &Statistics) -> Troubles {
         characters_refused: statistics.characters_refused,
     }
 }
-
-const QUIET_AFTER: Duration = Duration::from_secs(3);
 
 #[cfg(test)]
 mod tests {
