@@ -31,6 +31,7 @@ mod frame;
 mod head;
 mod header;
 mod input;
+mod null_pose;
 mod number;
 mod reader;
 mod section;

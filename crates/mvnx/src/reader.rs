@@ -111,7 +111,8 @@ impl<R: BufRead> Reader<R> {
     /// Whose motion it is.
     ///
     /// Points have their place in the segment's list as id, from 1. Finger segments and finger joints stand behind those
-    /// of the body, left before right. Origins come from the `identity` or `npose` frame and are `None` without one.
+    /// of the body, left before right. Origins come from the `identity` or `npose` frame; those that it does not give follow from
+    /// the connectors of the joints, which meet in the null pose, and stay `None` where these do not tell.
     /// A joint whose connector names an undefined point has point 0 there. Tags are the attributes of the subject.
     pub fn subject(&self) -> &Arc<Subject> {
         &self.subject

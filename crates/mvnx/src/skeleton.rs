@@ -4,6 +4,7 @@ use crate::Error;
 use crate::calibration::{Calibration, CalibrationKind};
 use crate::error::clip;
 use crate::header::{ConnectorDefinition, Header, JointDefinition, PointDefinition, SegmentDefinition};
+use crate::null_pose;
 use posewire_motion::{
     Connector, DQuat, DVec3, ErgonomicAngle, Joint, Point, Segment, SegmentKind, Skeleton, Subject, standard,
 };
@@ -16,6 +17,7 @@ pub(crate) fn build_subject(header: &Header, calibration: &[Calibration]) -> Res
     let mut segments = segments(header, &nominal);
     apply_calibration(&mut segments, header.version, calibration);
     let joints = joints(header, &places)?;
+    null_pose::complete(&mut segments, &joints);
     hang(&mut segments, &joints)?;
     hang_nominally(&mut segments, &nominal);
     let skeleton = Skeleton {

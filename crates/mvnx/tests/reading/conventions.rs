@@ -2,7 +2,7 @@
 
 use crate::contents::{assert_equal, read, section};
 use crate::made_up::{MadeUp, values};
-use posewire_motion::DQuat;
+use posewire_motion::{DQuat, DVec3};
 use posewire_mvnx::{CalibrationKind, Reader};
 
 fn quaternion(numbers: &[f64]) -> DQuat {
@@ -56,15 +56,19 @@ fn version_3_takes_origins_and_axes_from_its_npose() {
 }
 
 #[test]
-fn without_calibration_origins_are_unknown_and_axes_nominal() {
+fn without_calibration_joints_tell_origins_and_axes_are_nominal() {
     let made = MadeUp {
         calibration: false,
         ..MadeUp::default()
     };
     let text = made.write();
     let reader = Reader::new(text.as_bytes()).unwrap();
-    for (found, expected) in reader.subject().skeleton.segments.iter().zip(&made.skeleton().segments) {
-        assert_eq!((found.origin, found.isb), (None, expected.isb));
+    let segments = made.skeleton().segments;
+    let toe = DVec3::Z * segments[22].origin.unwrap().z;
+    for (found, expected) in reader.subject().skeleton.segments.iter().zip(&segments) {
+        let expected_origin = expected.origin.unwrap() - toe;
+        assert!(found.origin.unwrap().distance(expected_origin) < 1e-9);
+        assert_eq!(found.isb, expected.isb);
     }
 }
 

@@ -179,3 +179,20 @@ fn every_number_of_the_version_3_take_is_read_and_its_arms_are_turned() {
     assert_joint_angles(&frames);
     assert_eq!(frames[3].timecode.unwrap().to_string(), "15:59:46.284");
 }
+
+#[test]
+fn joints_tell_the_origins_that_calibration_gives() {
+    for name in ["test_mocap.mvnx", "meri-020.mvnx"] {
+        let Some(text) = reference(name) else { return };
+        let begin = text.find("<frame ").unwrap();
+        let recording = text[..text.find("type=\"normal\"").unwrap()].rfind("<frame ").unwrap();
+        let bare = text[..begin].to_owned() + &text[recording..];
+        let [calibrated, bare] = [&text, &bare].map(|text| Reader::new(text.as_bytes()).unwrap());
+        assert!(bare.calibration().is_empty());
+        let segments = |reader: &Reader<_>| reader.subject().skeleton.segments.clone();
+        for (bare, calibrated) in segments(&bare).iter().zip(&segments(&calibrated)) {
+            let distance = bare.origin.unwrap().distance(calibrated.origin.unwrap());
+            assert!(distance < 3e-6, "{name} {}: {distance}", bare.name);
+        }
+    }
+}
