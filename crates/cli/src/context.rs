@@ -3,6 +3,8 @@
 use posewire::stop::Stop;
 use posewire::{Item, Result, Sink};
 use std::io::{IsTerminal, Write};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 use std::time::Duration;
 
@@ -42,14 +44,27 @@ pub(crate) fn say(text: impl std::fmt::Display) {
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
 
-/// Says what a source has to say.
-pub(crate) struct Teller;
+/// Says what a source has to say, and keeps how many datagrams the kernel dropped before the source saw them.
+#[derive(Clone, Default)]
+pub(crate) struct Teller {
+    kernel_dropped: Arc<AtomicU64>,
+}
+
+impl Teller {
+    pub(crate) fn kernel_dropped(&self) -> u64 {
+        self.kernel_dropped.load(Ordering::Relaxed)
+    }
+}
 
 impl Sink for Teller {
     fn accept(&mut self, item: &Item) -> Result<()> {
-        if let Item::Notice(notice) = item {
-            end_progress();
-            say(notice);
+        match item {
+            Item::Notice(notice) => {
+                end_progress();
+                say(notice);
+            }
+            Item::Statistics(statistics) => self.kernel_dropped.store(statistics.kernel_dropped, Ordering::Relaxed),
+            _ => {}
         }
         Ok(())
     }

@@ -28,6 +28,7 @@ pub(crate) struct StreamRecord<'a> {
     kind: &'static str,
     frames: u64,
     lost: u64,
+    unsent: u64,
     lateness_ms: Spread,
     targets: Vec<TargetRecord<'a>>,
 }
@@ -43,7 +44,8 @@ struct TargetRecord<'a> {
 }
 
 impl<'a> StreamRecord<'a> {
-    pub(crate) fn new(progress: &'a Progress) -> Self {
+    /// `unsent` is what of a live source was lost on this machine before it could be sent.
+    pub(crate) fn new(progress: &'a Progress, unsent: u64) -> Self {
         let targets = progress.targets.iter().map(|target| TargetRecord {
             endpoint: &target.endpoint,
             peers: target.peers,
@@ -55,7 +57,8 @@ impl<'a> StreamRecord<'a> {
         Self {
             kind: "stream",
             frames: progress.frames,
-            lost: progress.lost(),
+            lost: progress.lost() + unsent,
+            unsent,
             lateness_ms: progress.lateness.into(),
             targets: targets.collect(),
         }

@@ -36,9 +36,15 @@ fn lateness(progress: &Progress) -> String {
     format!("lateness {}", progress.lateness)
 }
 
-/// How a stream went, a line for each target.
-pub(crate) fn stream_summary(progress: &Progress) -> String {
+/// How a stream went, a line for each target. `unsent` is what was lost here before it could be sent.
+pub(crate) fn stream_summary(progress: &Progress, unsent: u64) -> String {
     let mut text = format!("sent {} samples, {}", progress.frames, lateness(progress));
+    if unsent > 0 {
+        _ = write!(
+            text,
+            ", {unsent} dropped here: the stream came faster than it was passed on"
+        );
+    }
     for target in &progress.targets {
         _ = write!(text, "\n  {}: {} datagrams", target.endpoint, target.datagrams);
         for (count, what) in [

@@ -33,8 +33,11 @@ pub(super) fn run(arguments: &Demo) -> anyhow::Result<End> {
         &stop,
     );
     stop.stop();
-    streaming.wait()?;
+    let unsent = streaming.wait()?.dropped;
     let progress = progress.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-    say(crate::render::stream_summary(&progress));
-    end
+    say(crate::render::stream_summary(&progress, unsent));
+    match end? {
+        End::Done => Ok(End::with_lost(progress.lost() + unsent)),
+        lost @ End::LostData => Ok(lost),
+    }
 }

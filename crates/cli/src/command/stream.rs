@@ -4,11 +4,12 @@ use super::End;
 use crate::cli::{Playback, Revision, Stream};
 use crate::context::{self, Teller, end_progress, say, show_progress};
 use crate::error::Usage;
+use crate::plain::plural;
 use crate::{json, render};
 use posewire::endpoint::Endpoint;
 use posewire::sink::{MxtpSink, MxtpSinkOptions, Progress};
 use posewire::source::{PlaybackOptions, Preview};
-use posewire::{Session, Source};
+use posewire::{Session, Sink, Source};
 use posewire_mxtp::MessageType;
 use posewire_mxtp::motion::{MessageTypes, lacks};
 use std::sync::{Mutex, PoisonError};
@@ -25,6 +26,7 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
     let source = Source::open(&from, &playback_options(&arguments.playback))?;
     let types = choose_types(&arguments.types, source.preview())?;
     if source.is_live() {
+        refuse_playback(&arguments.playback)?;
         context::stop_after(&stop, arguments.playback.duration);
     }
     let options = MxtpSinkOptions {
@@ -44,22 +46,63 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
         say("waiting for somebody to connect");
         sink.wait_until_ready(&stop);
     }
-    let session = Session::start(source, vec![Box::new(sink), Box::new(Teller)], stop.clone());
+    let teller = Teller::default();
+    let sinks: Vec<Box<dyn Sink>> = vec![Box::new(sink), Box::new(teller.clone())];
+    let session = Session::start(source, sinks, stop.clone());
+    let mut peers = peers_of(&read(&progress));
     while session.is_running() && !stop.wait(Duration::from_millis(200)) {
-        show_progress(render::progress_line(&read(&progress)));
+        let progress = read(&progress);
+        tell_of_peers(&mut peers, &progress);
+        show_progress(render::progress_line(&progress));
     }
     let outcome = session.wait();
     end_progress();
     let progress = read(&progress);
+    let unsent = teller.kernel_dropped() + outcome.as_ref().map_or(0, |outcome| outcome.dropped);
     if arguments.json {
-        json::print(&json::StreamRecord::new(&progress))?;
+        json::print(&json::StreamRecord::new(&progress, unsent))?;
     } else {
-        say(render::stream_summary(&progress));
+        say(render::stream_summary(&progress, unsent));
     }
-    Ok(End::with_lost(outcome?.dropped + progress.lost()))
+    outcome?;
+    Ok(End::with_lost(progress.lost() + unsent))
 }
 
-pub(super) fn playback_options(arguments: &Playback) -> PlaybackOptions {
+/// A live stream comes as it comes: options that would be ignored are refused.
+fn refuse_playback(arguments: &Playback) -> Result<(), Usage> {
+    let given = [
+        ("--rate", arguments.rate.is_some()),
+        ("--speed", arguments.speed.to_bits() != 1_f64.to_bits()),
+        ("--loop", arguments.looped),
+        ("--salvage", arguments.salvage),
+    ];
+    match given.iter().find(|(_, is_given)| *is_given) {
+        None => Ok(()),
+        Some((option, _)) => Err(Usage {
+            problem: format!("{option} is for takes and the walker, and the source is a live stream"),
+            help: format!("leave {option} out"),
+        }),
+    }
+}
+
+/// How many peers each target has.
+fn peers_of(progress: &Progress) -> Vec<usize> {
+    progress.targets.iter().map(|target| target.peers).collect()
+}
+
+/// Says where a peer has come or gone since `known`.
+fn tell_of_peers(known: &mut Vec<usize>, progress: &Progress) {
+    for (before, target) in known.iter().zip(&progress.targets) {
+        if *before != target.peers {
+            let peers = plural(target.peers as u64, "peer");
+            end_progress();
+            say(format_args!("{}: {peers} connected", target.endpoint));
+        }
+    }
+    *known = peers_of(progress);
+}
+
+fn playback_options(arguments: &Playback) -> PlaybackOptions {
     PlaybackOptions {
         rate_hz: arguments.rate,
         speed: arguments.speed,

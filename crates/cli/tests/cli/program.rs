@@ -95,6 +95,50 @@ impl Monitor {
     }
 }
 
+/// `posewire stream`, passing on a live stream; it ends with the test.
+pub(crate) struct Relay {
+    pub(crate) endpoint: String,
+    child: Child,
+    err: BufReader<ChildStderr>,
+}
+
+impl Relay {
+    /// Starts it with these arguments and waits until it listens.
+    pub(crate) fn start(arguments: &[&str]) -> Self {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_posewire"))
+            .arg("stream")
+            .args(arguments)
+            .stdin(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut err = BufReader::new(child.stderr.take().unwrap());
+        let mut line = String::new();
+        err.read_line(&mut line).unwrap();
+        let endpoint = line.strip_prefix("streaming ").and_then(|rest| rest.split(',').next());
+        Self {
+            endpoint: endpoint.unwrap_or_else(|| panic!("{line}")).to_owned(),
+            child,
+            err,
+        }
+    }
+
+    /// What it says until a line has these words; all until its end when none has.
+    pub(crate) fn read_until(&mut self, words: &str) -> String {
+        let mut said = String::new();
+        while !said.contains(words) && self.err.read_line(&mut said).unwrap() > 0 {}
+        said
+    }
+}
+
+impl Drop for Relay {
+    fn drop(&mut self) {
+        // It may have ended by itself.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
 /// The JSON objects of an output that are of this kind.
 pub(crate) fn objects(out: &str, kind: &str) -> Vec<serde_json::Value> {
     let objects = out.lines().map(|line| serde_json::from_str(line).unwrap());

@@ -34,6 +34,16 @@ fn wrong_arguments_end_with_2() {
         (&["stream", "synthetic:walk?people=65"], "from 1 to 64", "people"),
         (&["stream", walk, "--rate", "500"], "at most 240 Hz", "--rate"),
         (&["stream", walk, "--speed", "0"], "above 0", "real time"),
+        (
+            &["stream", "mxtp://127.0.0.1:0", "--rate", "60"],
+            "--rate is for takes",
+            "leave --rate out",
+        ),
+        (
+            &["stream", "mxtp+tcp://127.0.0.1:0", "--loop"],
+            "--loop is for takes",
+            "leave --loop out",
+        ),
         (&["stream", walk, "--types", "02,99"], "\"02,99\"", "01,02,03"),
         (
             &["stream", walk, "--to", "other.mvnx"],
