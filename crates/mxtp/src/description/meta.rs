@@ -42,9 +42,12 @@ impl MetaTags {
     }
 
     fn note_tag(&mut self, tag: &str, value: &str) -> bool {
-        match (tag, value.trim().parse()) {
-            ("name", _) => replace(&mut self.name, value),
-            ("color", Ok(color)) => self.color.replace(color) != Some(color),
+        match tag {
+            "name" => replace(&mut self.name, value),
+            "color" => match value.trim().parse() {
+                Ok(color) => self.color.replace(color) != Some(color),
+                Err(_) => self.note_other(tag, value),
+            },
             _ => self.note_other(tag, value),
         }
     }

@@ -1,8 +1,8 @@
 //! A stream that runs takes no memory: frames and buffers are used again.
 
-use posewire_motion::{CenterOfMass, DQuat, DVec3, Frame, Skeleton, Subject, Timecode};
+use posewire_motion::{CenterOfMass, DQuat, DVec3, Frame, Skeleton, Stamp, Subject, Timecode};
 use posewire_mxtp::motion::{Datagrams, Encoder, EncoderOptions, Filler, MessageTypes};
-use posewire_mxtp::{Datagram, Revision};
+use posewire_mxtp::{Assembler, Datagram, Event, Revision};
 use std::sync::Arc;
 
 fn frame() -> Frame {
@@ -60,4 +60,31 @@ fn nothing_is_allocated_once_all_types_have_been_sent_and_received() {
         assert_eq!(counts.count_total, 0);
         assert_eq!((datagrams.len(), received.markers.len()), (10, 44));
     }
+}
+
+#[test]
+fn nothing_is_allocated_once_samples_and_descriptions_repeat() {
+    let options = EncoderOptions {
+        types: MessageTypes::ALL,
+        ..EncoderOptions::default()
+    };
+    let (mut sent, mut encoder, mut datagrams) = (frame(), Encoder::new(options), Datagrams::new());
+    encoder.encode_subject(&sent.subject, &mut datagrams);
+    let description = datagrams.clone();
+    let mut assembler = Assembler::new();
+    let mut run = || {
+        sent.sample += 1;
+        datagrams.clear();
+        encoder.encode_frame(&sent, &mut datagrams);
+        for bytes in description.iter().chain(datagrams.iter()) {
+            assembler.handle(Stamp(4_000_000 * i64::from(sent.sample)), bytes);
+        }
+        let frames = std::iter::from_fn(|| assembler.poll());
+        frames.filter(|event| matches!(event, Event::Frame(_))).count()
+    };
+    // The window of samples that are remembered fills first.
+    (0..300).for_each(|_| _ = run());
+    let mut frames = 0;
+    let counts = allocation_counter::measure(|| frames = (0..100).map(|_| run()).sum());
+    assert_eq!((counts.count_total, frames), (0, 100));
 }
