@@ -18,8 +18,29 @@ pub(crate) fn print(value: &impl Serialize) -> Result<(), Error> {
 /// Writes one object on a line of its own to the standard output.
 pub(crate) fn write(out: &mut impl Write, value: &impl Serialize) -> Result<(), Error> {
     let broken = |error: &std::io::Error| Error::write("the standard output", error);
-    serde_json::to_writer(&mut *out, value).map_err(|error| broken(&error.into()))?;
+    let mut serializer = serde_json::Serializer::with_formatter(&mut *out, Printable);
+    value
+        .serialize(&mut serializer)
+        .map_err(|error| broken(&error.into()))?;
     out.write_all(b"\n").map_err(|error| broken(&error))
+}
+
+/// Compact JSON with every control character escaped: JSON itself asks for it only below U+0020, but those from U+007F to
+/// U+009F steer a terminal too, and names come from the network.
+struct Printable;
+
+impl serde_json::ser::Formatter for Printable {
+    fn write_string_fragment<W: ?Sized + Write>(&mut self, out: &mut W, fragment: &str) -> std::io::Result<()> {
+        let mut rest = fragment;
+        while let Some(place) = rest.find(char::is_control) {
+            let (before, from) = rest.split_at(place);
+            let mut characters = from.chars();
+            let code = characters.next().map_or(0, u32::from);
+            write!(out, "{before}\\u{code:04x}")?;
+            rest = characters.as_str();
+        }
+        out.write_all(rest.as_bytes())
+    }
 }
 
 /// How a stream went that we sent.
@@ -354,4 +375,19 @@ fn marker(marker: &posewire_motion::Marker) -> Marker {
 
 fn at<T: Copy>(section: &[Option<T>], place: usize) -> Option<T> {
     section.get(place).copied().flatten()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_name_says_cannot_steer_the_terminal() {
+        let name = "Zo\u{eb}\u{1b}[2J\u{7f}\u{9b}2J\n\"";
+        let mut line = Vec::new();
+        write(&mut line, &name).unwrap();
+        let line = String::from_utf8(line).unwrap();
+        assert_eq!(line, "\"Zo\u{eb}\\u001b[2J\\u007f\\u009b2J\\n\\\"\"\n");
+        assert_eq!(serde_json::from_str::<String>(&line).unwrap(), name);
+    }
 }
