@@ -45,6 +45,24 @@ pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
     ExitCode::from(if usage { 2 } else { 1 })
 }
 
+/// Prints what the parsing of the arguments ended with: the help or version that was asked for, else what is wrong with
+/// them, which ends with a `help:` line as every error does.
+pub(crate) fn report_parsing(answer: &clap::Error) -> ExitCode {
+    if !answer.use_stderr() {
+        // When the reader of a help has seen enough there is nobody to be told.
+        let _ = answer.print();
+        return ExitCode::SUCCESS;
+    }
+    let text = answer.render().to_string();
+    let text = text.trim_end();
+    let problem = text.strip_suffix(TRY_HELP).map_or(text, str::trim_end);
+    let _ = writeln!(
+        std::io::stderr().lock(),
+        "{problem}\n\nhelp: --help after a verb explains its arguments, alone it lists the verbs"
+    );
+    ExitCode::from(2)
+}
+
 /// The reader of our output has seen enough, as `head` does.
 fn is_closed_pipe(error: &anyhow::Error) -> bool {
     let closed = std::io::ErrorKind::BrokenPipe;
@@ -55,3 +73,6 @@ fn is_closed_pipe(error: &anyhow::Error) -> bool {
             .is_some_and(|error| error.kind() == closed),
     }
 }
+
+/// How clap ends what it has to say.
+const TRY_HELP: &str = "For more information, try '--help'.";

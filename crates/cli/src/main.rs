@@ -12,9 +12,11 @@ use clap::Parser;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let cli = cli::Cli::parse();
-    match command::run(cli.command) {
-        Ok(end) => end.exit_code(),
-        Err(error) => error::report(&error),
+    match cli::Cli::try_parse() {
+        Ok(cli) => match command::run(cli.command) {
+            Ok(end) => end.exit_code(),
+            Err(error) => error::report(&error),
+        },
+        Err(answer) => error::report_parsing(&answer),
     }
 }

@@ -28,6 +28,13 @@ fn wrong_arguments_end_with_2() {
     let walk = "synthetic:walk?people=1";
     for (arguments, error, help) in [
         (&["monitor", "nowhere://x"][..], "unknown scheme \"nowhere\"", "mxtp"),
+        (
+            &["stream"],
+            "required arguments were not provided",
+            "--help after a verb",
+        ),
+        (&["stream", walk, "--split", "5"], "100..=65507", "--help"),
+        (&["monitor", "--count", "0"], "--count", "--help"),
         (&["monitor", "mxtp://127.0.0.1:99999"], "99999", "HOST:PORT"),
         (&["stream", "take.mvn"], "proprietary", "export it as MVNX"),
         (&["inspect", "take.mvn"], "proprietary", "export it as MVNX"),
