@@ -41,7 +41,7 @@ Examples:
   posewire stream take.mvnx                                  to this machine, UDP port 9763
   posewire stream take.mvnx --to mxtp://192.168.1.20 --loop
   posewire stream take.mvnx --to mxtp+tcp://robot --types all
-  posewire stream synthetic:walk?people=3 --to mxtp://239.255.42.99?interface=eth0
+  posewire stream \"synthetic:walk?people=3\" --to \"mxtp://239.255.42.99?interface=eth0\"
   posewire stream mxtp://0.0.0.0 --to mxtp://10.0.0.5 --to mxtp+tcp://10.0.0.6   pass on a live stream")]
 pub(crate) struct Stream {
     /// What to send: a take, synthetic:walk, or a live stream to pass on.
@@ -118,7 +118,7 @@ pub(crate) enum Revision {
 Examples:
   posewire monitor                                   whatever arrives on UDP port 9763
   posewire monitor mxtp+tcp://0.0.0.0                let MVN connect over TCP
-  posewire monitor mxtp://239.255.42.99?interface=eth0
+  posewire monitor \"mxtp://239.255.42.99?interface=eth0\"
   posewire monitor --json --frames --count 240 > frames.jsonl
 
 In MVN: Options > Preferences > Network Streamer, add this machine's address with port 9763.")]
@@ -207,5 +207,54 @@ fn seconds(text: &str) -> Result<Duration, String> {
     match Duration::try_from_secs_f64(seconds) {
         Ok(duration) if !duration.is_zero() => Ok(duration),
         _ => Err("expected more than 0 seconds".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    /// The words of a line as a shell gives them: quotes keep words together, `#`, `>` and `|` end the command.
+    fn words(line: &str) -> Vec<String> {
+        let end = line.find(['#', '>', '|']).unwrap_or(line.len());
+        let pieces = line[..end].split('"').enumerate();
+        let words = pieces.flat_map(|(place, piece)| match place % 2 {
+            0 => piece.split_whitespace().map(str::to_owned).collect(),
+            _ => vec![piece.to_owned()],
+        });
+        words.collect()
+    }
+
+    fn assert_parses(line: &str) {
+        let parsed = Cli::try_parse_from(words(line));
+        assert!(parsed.is_ok(), "{line}: {}", parsed.unwrap_err());
+    }
+
+    #[test]
+    fn every_command_of_the_readme_is_one() {
+        let readme = include_str!("../../../README.md");
+        let commands = readme.lines().flat_map(|line| match line.strip_prefix("posewire ") {
+            Some(_) => vec![line],
+            None => line.split('`').filter(|text| text.starts_with("posewire ")).collect(),
+        });
+        let count = commands.inspect(|command| assert_parses(command)).count();
+        assert!(count >= 10, "only {count} were found");
+    }
+
+    #[test]
+    fn every_example_of_the_help_is_one() {
+        let mut count = 0;
+        for verb in Cli::command().get_subcommands() {
+            let examples = verb.get_after_help().map(ToString::to_string).unwrap_or_default();
+            for line in examples.lines() {
+                if let Some(place) = line.find("posewire ").filter(|_| line.starts_with("  ")) {
+                    let (command, _) = line[place..].split_once("   ").unwrap_or((&line[place..], ""));
+                    assert_parses(command);
+                    count += 1;
+                }
+            }
+        }
+        assert!(count >= 10, "only {count} were found");
     }
 }

@@ -1,6 +1,6 @@
 //! `posewire inspect`.
 
-use crate::program::{Ended, assert_fits, posewire, reference};
+use crate::program::{Ended, assert_documented, assert_fits, posewire, reference};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::fs;
@@ -122,6 +122,7 @@ unknown elements
 fn json_says_the_same_in_metres_and_seconds() {
     let folder = folder("take.mvnx", take());
     let take = object(&inspect(folder.path(), &["take.mvnx", "--json"]));
+    assert_documented(&take, "take", &["damage"]);
     assert_eq!(
         (&take["kind"], &take["file"], &take["complete"]),
         (&json!("take"), &json!("take.mvnx"), &json!(true))

@@ -147,6 +147,29 @@ pub(crate) fn objects(out: &str, kind: &str) -> Vec<serde_json::Value> {
         .collect()
 }
 
+/// Asserts that an object has the fields that a section of docs/json.md describes and no others, but for those of
+/// `optional`, which it may lack.
+pub(crate) fn assert_documented(object: &serde_json::Value, kind: &str, optional: &[&str]) {
+    let text = include_str!("../../../../docs/json.md");
+    let (_, table) = text.split_once(&format!("| `kind` | `\"{kind}\"` |")).unwrap();
+    let rows = table.lines().skip(1).take_while(|line| line.starts_with('|'));
+    let documented: Vec<_> = rows
+        .flat_map(|row| row.split('|').nth(1).unwrap().split('`').skip(1).step_by(2))
+        .chain(["kind"])
+        .collect();
+    let fields = object.as_object().unwrap();
+    for field in fields.keys() {
+        assert!(
+            documented.contains(&field.as_str()),
+            "{field} of {kind} is not in docs/json.md"
+        );
+    }
+    for field in documented {
+        let there = fields.contains_key(field) || optional.contains(&field);
+        assert!(there, "docs/json.md has {field}, the {kind} has not: {object}");
+    }
+}
+
 /// The project's own datagrams.
 pub(crate) fn vectors() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../testdata/mxtp")

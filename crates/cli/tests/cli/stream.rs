@@ -1,6 +1,6 @@
 //! `posewire stream` to `posewire monitor`.
 
-use crate::program::{Monitor, Relay, objects, posewire};
+use crate::program::{Monitor, Relay, assert_documented, objects, posewire};
 use crate::takes::small_take;
 use std::fs;
 use std::path::Path;
@@ -32,11 +32,14 @@ fn a_walker_is_streamed_and_monitored_with_all_that_it_has() {
         (&60.into(), &0.into(), &0.into())
     );
 
+    assert_documented(summary, "stream", &[]);
+
     let ended = monitor.end();
     assert_eq!(ended.code, Some(0), "{}", ended.err);
     let frames = objects(&ended.out, "frame");
     assert_eq!(frames.len(), 30);
     let frame = &frames[29];
+    assert_documented(frame, "frame", &[]);
     assert_eq!((&frame["sample"], &frame["time_ms"]), (&29.into(), &483.into()));
     assert_eq!(frame["segments"].as_array().unwrap().len(), 64);
     assert_eq!(frame["segments"][0]["name"], "Pelvis");
@@ -51,6 +54,10 @@ fn a_walker_is_streamed_and_monitored_with_all_that_it_has() {
     assert!(frame["markers"].as_array().unwrap().len() > 30);
     let statistics = objects(&ended.out, "statistics");
     let pose = statistics.iter().rfind(|object| object["type"] == "02").unwrap();
+    assert_documented(pose, "statistics", &[]);
+    let readme = include_str!("../../../../README.md");
+    let shown = readme.lines().find(|line| line.starts_with("{\"kind\"")).unwrap();
+    assert_documented(&serde_json::from_str(shown).unwrap(), "statistics", &[]);
     assert_eq!(
         (&pose["missing"], &pose["stride"], &pose["ended"]),
         (&0.into(), &1.into(), &true.into())
@@ -74,7 +81,7 @@ fn a_live_stream_is_passed_on_and_peers_are_told_of() {
     let monitored = monitor.endpoint.clone();
     assert_eq!(objects(&monitor.end().out, "frame").len(), 12);
     let said = relay.read_until("0 peers connected");
-    let told = format!("{}: 0 peers connected", monitored);
+    let told = format!("{monitored}: 0 peers connected");
     assert!(said.contains(&told), "{said}");
 }
 
