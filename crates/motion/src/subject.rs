@@ -17,7 +17,7 @@ pub struct Subject {
     pub rate: Option<f64>,
     /// Its segments, joints, points and sensors.
     pub skeleton: Skeleton,
-    /// What else the source told of it, in the order told: MXTP meta tags, MVNX subject attributes.
+    /// What else a stream told of it, in the order told: MXTP meta tags. They are sent on with the subject.
     pub tags: Vec<(String, String)>,
 }
 

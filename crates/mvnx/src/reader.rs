@@ -113,7 +113,8 @@ impl<R: BufRead> Reader<R> {
     /// Points have their place in the segment's list as id, from 1. Finger segments and finger joints stand behind those
     /// of the body, left before right. Origins come from the `identity` or `npose` frame; those that it does not give follow from
     /// the connectors of the joints, which meet in the null pose, and stay `None` where these do not tell.
-    /// A joint whose connector names an undefined point has point 0 there. Tags are the attributes of the subject.
+    /// A joint whose connector names an undefined point has point 0 there. It has no tags: what else a file
+    /// says of its subject, the recorder's folders among it, is in the [`header`](Self::header) and is not to be sent on.
     pub fn subject(&self) -> &Arc<Subject> {
         &self.subject
     }

@@ -32,7 +32,6 @@ pub(crate) fn build_subject(header: &Header, calibration: &[Calibration]) -> Res
             .subject_attribute("torsoColor")
             .and_then(|color| color.parse().ok()),
         rate: header.frame_rate(),
-        tags: header.subject.clone(),
         ..Subject::new(header.label().unwrap_or_default(), skeleton)
     })
 }

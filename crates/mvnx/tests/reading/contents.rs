@@ -264,7 +264,9 @@ fn the_subject_is_the_canonical_skeleton() {
         (subject.rate, subject.color),
         (Some(100.0), Some(Color([0xe9, 0x64, 0x17])))
     );
-    assert_eq!(subject.tag("odd"), Some("kept"));
+    // What the file says besides stays in its header: tags are sent on, and a file tells its recorder's folders.
+    assert_eq!(subject.tags, []);
+    assert_eq!(reader.header().subject_attribute("odd"), Some("kept"));
     assert_eq!(subject.skeleton.joints, expected.joints);
     assert_eq!(subject.skeleton.ergonomic_angles, expected.ergonomic_angles);
     assert_eq!(subject.skeleton.sensors, expected.sensors);
