@@ -180,7 +180,8 @@ impl<'a> Body<'a> {
             MessageType::JOINT_ANGLES => {
                 let (items, rest) = records(header, bytes, quirks)?;
                 let pairs = items.iter().map(|j: &JointAngles| (j.parent(), j.child()));
-                *quirks = quirks.union(joint_quirks(pairs));
+                let whole = header.counter == DatagramCounter::SINGLE;
+                *quirks = quirks.union(joint_quirks(pairs, whole));
                 Ok((Self::JointAngles(items), rest))
             }
             MessageType::TRACKERS => trackers::decode(header, bytes, quirks),

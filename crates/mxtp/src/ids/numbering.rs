@@ -36,13 +36,13 @@ where
     }
 }
 
-/// Quirks of the joint IDs of one type 20 datagram.
-pub(crate) fn joint_quirks<I>(pairs: I) -> Quirks
+/// Quirks of the joint IDs of one type 20 datagram, which holds the whole message or a part of it.
+pub(crate) fn joint_quirks<I>(pairs: I, whole: bool) -> Quirks
 where
     I: ExactSizeIterator<Item = (PointId, PointId)>,
 {
     let mut quirks = Quirks::NONE;
-    quirks.insert_if(pairs.len() == ANATOMICAL_JOINTS, Quirk::Joints22);
+    quirks.insert_if(whole && pairs.len() == ANATOMICAL_JOINTS, Quirk::Joints22);
     for (position, pair) in pairs.enumerate() {
         let known = JOINTS.get(position) == Some(&pair) || JOINTS.contains(&pair);
         quirks.insert_if(!known, Quirk::JointId);
@@ -159,11 +159,12 @@ mod tests {
 
     #[test]
     fn twenty_two_known_joints_are_one_quirk() {
-        let all = joint_quirks(JOINTS.into_iter());
+        let all = joint_quirks(JOINTS.into_iter(), true);
         assert!(all.is_empty());
-        let fewer = joint_quirks(JOINTS[..22].iter().copied());
-        assert_eq!(fewer, Quirk::Joints22.into());
-        let unknown = joint_quirks([(PointId(1), PointId(2))].into_iter());
+        let fewer = |whole| joint_quirks(JOINTS[..22].iter().copied(), whole);
+        assert_eq!(fewer(true), Quirk::Joints22.into());
+        assert_eq!(fewer(false), Quirks::NONE);
+        let unknown = joint_quirks([(PointId(1), PointId(2))].into_iter(), true);
         assert_eq!(unknown, Quirk::JointId.into());
     }
 }
