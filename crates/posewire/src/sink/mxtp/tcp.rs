@@ -212,8 +212,11 @@ fn keep_connected(address: &TcpAddress, first: TcpConnection, queue: &Consumer<S
     let mut backoff = Backoff::default();
     while !peers.ending.wait(backoff.next_delay()) {
         if let Ok(connection) = net::connect(address, RECONNECT_TIMEOUT) {
-            backoff.reset();
+            let begun = Instant::now();
             peers.serve(connection, &peers.welcome());
+            if begun.elapsed() >= STEADY {
+                backoff.reset();
+            }
         }
     }
 }
@@ -245,5 +248,7 @@ const QUEUED_SAMPLES: usize = 256;
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(5);
 /// An attempt cannot be cut short, so the end of the stream may have to wait for one.
 const RECONNECT_TIMEOUT: Duration = Duration::from_secs(1);
+/// A connection that lasted so long was one; a peer that hangs up at once is called less and less often.
+const STEADY: Duration = Duration::from_secs(1);
 const FLUSH_LIMIT: Duration = Duration::from_secs(2);
 const MAX_PEERS: usize = 16;
