@@ -78,7 +78,7 @@ fn types_of_plain_values_come_back_exactly() {
                     let (received, quirks) = receive(&subject, datagrams.iter());
                     let context = format!("{message_type} {props} {fingers} {revision:?} {split:?}");
                     assert_eq!(received, exact_sections(&sent, message_type), "{context}");
-                    assert!(quirks.is_empty() || split.is_some(), "{context}: {quirks}");
+                    assert!(quirks.is_empty(), "{context}: {quirks}");
                 }
             }
         }
@@ -198,16 +198,20 @@ fn what_is_not_tracked_is_left_out_and_comes_back_unknown() {
     }
     sent.joint_angles[3] = None;
     sent.sensor_orientation[2] = None;
-    for split in [None, Some(500)] {
+    let ways = [None, Some(500)].map(|split| [Revision::N, Revision::J].map(|revision| (split, revision)));
+    for (split, revision) in ways.into_iter().flatten() {
         let options = EncoderOptions {
             split,
+            revision,
             ..options(&[
                 MessageType::QUATERNION,
+                MessageType::UNITY,
                 MessageType::JOINT_ANGLES,
                 MessageType::TRACKERS,
             ])
         };
-        let (received, _) = receive(&subject, encode(options, &sent).iter());
+        let (received, quirks) = receive(&subject, encode(options, &sent).iter());
+        assert_eq!(quirks, Quirks::NONE);
         assert_eq!(received.position, sent.position);
         assert_eq!(received.orientation, sent.orientation);
         assert_eq!(received.joint_angles, sent.joint_angles);
