@@ -121,15 +121,15 @@ fn read_subject<R: BufRead>(xml: &mut Xml<R>, header: &mut Header) -> Result<(),
         check_size(xml)?;
         match xml.name() {
             "comment" => header.subject_comment = Some(xml.leaf_string()?),
-            "segments" => header.segments = read_segments(xml)?,
-            "sensors" => header.sensors = read_labels(xml, "sensor")?,
-            "joints" => header.joints = read_joints(xml)?,
-            "fingerTrackingSegmentsLeft" => header.finger_segments.left = read_segments(xml)?,
-            "fingerTrackingSegmentsRight" => header.finger_segments.right = read_segments(xml)?,
-            "fingerTrackingJointsLeft" => header.finger_joints.left = read_joints(xml)?,
-            "fingerTrackingJointsRight" => header.finger_joints.right = read_joints(xml)?,
-            "ergonomicJointAngles" => header.ergonomic_angles = read_ergonomic_angles(xml)?,
-            "footContactDefinition" => header.contacts = read_labels(xml, "contactDefinition")?,
+            "segments" => header.segments = read_segments(xml, header)?,
+            "sensors" => header.sensors = read_labels(xml, header, "sensor")?,
+            "joints" => header.joints = read_joints(xml, header)?,
+            "fingerTrackingSegmentsLeft" => header.finger_segments.left = read_segments(xml, header)?,
+            "fingerTrackingSegmentsRight" => header.finger_segments.right = read_segments(xml, header)?,
+            "fingerTrackingJointsLeft" => header.finger_joints.left = read_joints(xml, header)?,
+            "fingerTrackingJointsRight" => header.finger_joints.right = read_joints(xml, header)?,
+            "ergonomicJointAngles" => header.ergonomic_angles = read_ergonomic_angles(xml, header)?,
+            "footContactDefinition" => header.contacts = read_labels(xml, header, "contactDefinition")?,
             "frames" if header.segments.is_empty() => return Err(missing(xml, "subject", "segments")),
             "frames" => {
                 header.frames = xml.attributes()?;
@@ -169,8 +169,8 @@ fn check_subject<R: BufRead>(xml: &Xml<R>, header: &Header) -> Result<(), Error>
     Ok(())
 }
 
-fn read_segments<R: BufRead>(xml: &mut Xml<R>) -> Result<Vec<SegmentDefinition>, Error> {
-    read_list(xml, "segment", MAX_ENTRIES, |xml, attributes| {
+fn read_segments<R: BufRead>(xml: &mut Xml<R>, header: &mut Header) -> Result<Vec<SegmentDefinition>, Error> {
+    read_list(xml, header, "segment", MAX_ENTRIES, |xml, header, attributes| {
         let mut segment = SegmentDefinition {
             label: required(xml, &attributes, "segment", "label")?.to_owned(),
             id: value(&attributes, "id").and_then(|id| id.trim().parse().ok()),
@@ -178,23 +178,23 @@ fn read_segments<R: BufRead>(xml: &mut Xml<R>) -> Result<Vec<SegmentDefinition>,
         };
         while xml.child()? {
             match xml.name() {
-                "points" => segment.points = read_points(xml)?,
-                _ => xml.skip()?,
+                "points" => segment.points = read_points(xml, header)?,
+                _ => keep_unknown(xml, header)?,
             }
         }
         Ok(segment)
     })
 }
 
-fn read_points<R: BufRead>(xml: &mut Xml<R>) -> Result<Vec<PointDefinition>, Error> {
-    read_list(xml, "point", MAX_POINTS, |xml, attributes| {
+fn read_points<R: BufRead>(xml: &mut Xml<R>, header: &mut Header) -> Result<Vec<PointDefinition>, Error> {
+    read_list(xml, header, "point", MAX_POINTS, |xml, header, attributes| {
         let label = required(xml, &attributes, "point", "label")?.to_owned();
         let (at, mut offset) = (xml.place(), None);
         while xml.child()? {
             match xml.name() {
                 "pos_b" => offset = Some(read_vector(xml, "pos_b")?),
                 "pos_s" => offset = Some(read_vector(xml, "pos_s")?),
-                _ => xml.skip()?,
+                _ => keep_unknown(xml, header)?,
             }
         }
         let offset = offset.ok_or(Error::MissingElement {
@@ -241,15 +241,15 @@ pub(crate) fn read_leaf_numbers<R: BufRead>(
     })
 }
 
-fn read_joints<R: BufRead>(xml: &mut Xml<R>) -> Result<Vec<JointDefinition>, Error> {
-    read_list(xml, "joint", MAX_ENTRIES, |xml, attributes| {
+fn read_joints<R: BufRead>(xml: &mut Xml<R>, header: &mut Header) -> Result<Vec<JointDefinition>, Error> {
+    read_list(xml, header, "joint", MAX_ENTRIES, |xml, header, attributes| {
         let label = required(xml, &attributes, "joint", "label")?.to_owned();
         let (at, mut parent, mut child) = (xml.place(), None, None);
         while xml.child()? {
             match xml.name() {
                 "connector1" => parent = Some(read_connector(xml, "connector1")?),
                 "connector2" => child = Some(read_connector(xml, "connector2")?),
-                _ => xml.skip()?,
+                _ => keep_unknown(xml, header)?,
             }
         }
         let missing = |expected| Error::MissingElement {
@@ -280,8 +280,11 @@ fn read_connector<R: BufRead>(xml: &mut Xml<R>, what: &'static str) -> Result<Co
     })
 }
 
-fn read_ergonomic_angles<R: BufRead>(xml: &mut Xml<R>) -> Result<Vec<ErgonomicAngleDefinition>, Error> {
-    read_list(xml, "ergonomicJointAngle", MAX_ENTRIES, |xml, attributes| {
+fn read_ergonomic_angles<R: BufRead>(
+    xml: &mut Xml<R>,
+    header: &mut Header,
+) -> Result<Vec<ErgonomicAngleDefinition>, Error> {
+    read_list(xml, header, "ergonomicJointAngle", MAX_ENTRIES, |xml, _, attributes| {
         let text = |name| required(xml, &attributes, "ergonomicJointAngle", name).map(str::to_owned);
         let angle = ErgonomicAngleDefinition {
             label: text("label")?,
@@ -293,33 +296,34 @@ fn read_ergonomic_angles<R: BufRead>(xml: &mut Xml<R>) -> Result<Vec<ErgonomicAn
     })
 }
 
-fn read_labels<R: BufRead>(xml: &mut Xml<R>, entry: &'static str) -> Result<Vec<String>, Error> {
-    read_list(xml, entry, MAX_ENTRIES, |xml, attributes| {
+fn read_labels<R: BufRead>(xml: &mut Xml<R>, header: &mut Header, entry: &'static str) -> Result<Vec<String>, Error> {
+    read_list(xml, header, entry, MAX_ENTRIES, |xml, _, attributes| {
         let label = required(xml, &attributes, entry, "label")?.to_owned();
         xml.skip()?;
         Ok(label)
     })
 }
 
-/// Reads the children called `entry`; others are passed over.
+/// Reads the children called `entry`; others are kept as they stand.
 fn read_list<R: BufRead, T>(
     xml: &mut Xml<R>,
+    header: &mut Header,
     entry: &'static str,
     limit: usize,
-    mut read: impl FnMut(&mut Xml<R>, Attributes) -> Result<T, Error>,
+    mut read: impl FnMut(&mut Xml<R>, &mut Header, Attributes) -> Result<T, Error>,
 ) -> Result<Vec<T>, Error> {
     let mut entries = Vec::new();
     while xml.child()? {
         check_size(xml)?;
         if xml.name() != entry {
-            xml.skip()?;
+            keep_unknown(xml, header)?;
             continue;
         }
         if entries.len() == limit {
             return Err(xml.too_many(entry, limit));
         }
         let attributes = xml.attributes()?;
-        entries.push(read(xml, attributes)?);
+        entries.push(read(xml, header, attributes)?);
     }
     Ok(entries)
 }

@@ -254,6 +254,22 @@ fn the_header_is_kept_as_it_stands() {
 }
 
 #[test]
+fn unknown_elements_within_definitions_are_kept_too() {
+    let text = MadeUp::default().write();
+    let text = text.replacen("<points>", "<mass>9</mass><points><odd/>", 1);
+    let text = text.replacen("<connector1>", "<axis>y</axis><connector1>", 1);
+    let text = text.replacen("<joint label", "<hinge/><joint label", 1);
+    let reader = Reader::new(text.as_bytes()).unwrap();
+    let unknown: Vec<_> = reader.header().unknown.iter().map(|of| of.text.as_str()).collect();
+    assert_eq!(
+        unknown,
+        ["<mass>9</mass>", "<odd></odd>", "<hinge></hinge>", "<axis>y</axis>"]
+    );
+    let whole = MadeUp::default().write();
+    assert_eq!(reader.subject(), Reader::new(whole.as_bytes()).unwrap().subject());
+}
+
+#[test]
 fn the_subject_is_the_canonical_skeleton() {
     let made = MadeUp::default();
     let text = made.write();
