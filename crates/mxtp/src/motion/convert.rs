@@ -1,5 +1,6 @@
 //! Values of the wire as canonical ones, and back.
 
+use posewire_motion::rotation::{Sequence, from_euler};
 use posewire_motion::{DQuat, DVec3, Space};
 
 /// The axes and unit of types 01 and 03: right-handed, Y up, centimetres.
@@ -42,9 +43,7 @@ pub(super) fn angles_to_wire(angles: DVec3) -> [f32; 3] {
 
 /// The orientation of Euler angles in degrees, Y up: R = Rz·Ry·Rx.
 pub(super) fn euler(degrees: [f32; 3]) -> DQuat {
-    let DVec3 { x, y, z } = angles(degrees);
-    let turn = DQuat::from_rotation_z(z) * DQuat::from_rotation_y(y) * DQuat::from_rotation_x(x);
-    EULER_SPACE.orientation_to_canonical(turn)
+    EULER_SPACE.orientation_to_canonical(from_euler(angles(degrees), Sequence::Zyx))
 }
 
 /// The Euler angles of an orientation, in degrees, Y up.
