@@ -61,13 +61,17 @@ pub fn continuous(orientation: DQuat, before: DQuat) -> DQuat {
     }
 }
 
+/// The turn in the world that takes `from` to `to`, the shorter way round: its axis, as long as its angle in rad.
+pub fn turn_between(from: DQuat, to: DQuat) -> DVec3 {
+    (continuous(to, from) * from.conjugate()).to_scaled_axis()
+}
+
 /// The constant angular velocity in the world, rad/s, that turns `from` to `to` within `elapsed`, the shorter way round.
 ///
 /// `None` when no time has elapsed.
 pub fn angular_velocity(from: DQuat, to: DQuat, elapsed: Duration) -> Option<DVec3> {
     let seconds = elapsed.as_secs_f64();
-    let turn = continuous(to, from) * from.conjugate();
-    (seconds > 0.0).then(|| turn.to_scaled_axis() / seconds)
+    (seconds > 0.0).then(|| turn_between(from, to) / seconds)
 }
 
 #[cfg(test)]

@@ -1,10 +1,9 @@
 //! Velocities and accelerations of a take that holds poses alone.
 
 use crate::Frame;
-use crate::rotation;
+use crate::rotation::turn_between;
 use glam::{DQuat, DVec3};
 use std::collections::VecDeque;
-use std::time::Duration;
 
 /// Works out velocities and accelerations from three samples in a row, for samples that lack them.
 ///
@@ -225,11 +224,7 @@ impl Steps {
     }
 
     fn angular(&self, orientations: [Option<DQuat>; WINDOW]) -> Motion {
-        let step = |from: usize| {
-            // The turn itself, not rounded to the nanoseconds of a step.
-            let turn = rotation::angular_velocity(orientations[from]?, orientations[from + 1]?, ONE_SECOND)?;
-            Some(turn / self.seconds[from])
-        };
+        let step = |from: usize| Some(turn_between(orientations[from]?, orientations[from + 1]?) / self.seconds[from]);
         self.motion(orientations[self.place].is_some(), step(0), step(1))
     }
 
@@ -256,7 +251,6 @@ impl Steps {
 
 const WINDOW: usize = 3;
 const USUAL_LONGEST_GAP: u32 = 16;
-const ONE_SECOND: Duration = Duration::from_secs(1);
 
 #[cfg(test)]
 mod tests {
