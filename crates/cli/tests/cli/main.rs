@@ -4,6 +4,8 @@ mod demo;
 mod explain;
 mod inspect;
 mod monitor;
+#[cfg(unix)]
+mod page;
 mod program;
 mod refusals;
 mod stream;

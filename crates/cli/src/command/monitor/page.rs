@@ -25,6 +25,7 @@ use controls::{Controls, Pane};
 use posewire::stop::Stop;
 use ratatui::DefaultTerminal;
 use ratatui::crossterm::event::{self, Event, KeyEvent, KeyEventKind};
+use std::mem::ManuallyDrop;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -84,18 +85,28 @@ fn press_keys(keys: &Receiver<KeyEvent>, controls: &mut Controls, characters: &[
 }
 
 /// The terminal in raw mode on its second screen, put back on every way out: a return, an error, a panic.
-struct Screen(DefaultTerminal);
+///
+/// Not dropped as usual: a terminal that has gone cannot show its cursor again, and dropped it would complain of that on
+/// the standard error, which has gone with it, and panic.
+struct Screen(ManuallyDrop<DefaultTerminal>);
 
 impl Screen {
     fn open() -> std::io::Result<Self> {
-        ratatui::try_init().map(Self).inspect_err(|_| ratatui::restore())
+        let terminal = ratatui::try_init().inspect_err(|_| restore())?;
+        Ok(Self(ManuallyDrop::new(terminal)))
     }
 }
 
 impl Drop for Screen {
     fn drop(&mut self) {
-        ratatui::restore();
+        let _ = self.0.show_cursor();
+        restore();
     }
+}
+
+/// A terminal that has gone needs no restoring, and nobody is left there to be told.
+fn restore() {
+    let _ = ratatui::try_restore();
 }
 
 /// Twenty pictures a second are as many as an eye can use of numbers.
