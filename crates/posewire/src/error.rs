@@ -127,6 +127,12 @@ pub enum Error {
         /// What is wrong with it, and where.
         error: posewire_mvnx::Error,
     },
+    /// A take without a single frame.
+    #[error("{path}: expected frames, found none")]
+    NoFrames {
+        /// The file.
+        path: String,
+    },
     /// A stream rate that the captured samples cannot give.
     #[error("expected a rate above 0 and at most {captured} Hz, which is what was captured, found {found}")]
     Rate {
@@ -183,6 +189,7 @@ impl Error {
             Self::Stalled { peer, .. } => Some(format!("check that the program at {peer} reads its connection")),
             Self::Read { kind, .. } => read_help(*kind),
             Self::Take { error, .. } => Some(take_help(error).into()),
+            Self::NoFrames { .. } => Some("posewire inspect says what it holds; export it again from MVN".into()),
             Self::Rate { .. } => Some("leave --rate out to send every sample".into()),
             Self::NotATarget { .. } => Some("give a network address, as in --to mxtp://127.0.0.1:9763".into()),
             Self::Character { .. } => Some("start at a lower --character, or stream fewer people".into()),

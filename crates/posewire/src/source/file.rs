@@ -3,6 +3,7 @@
 use super::playback::Frames;
 use crate::{Error, Result};
 use posewire_motion::kinematics::{AllErgonomicAngles, Differences, complete};
+use posewire_motion::standard::ERGONOMIC_ANGLES;
 use posewire_motion::{Frame, Subject};
 use posewire_mvnx::Reader;
 use std::collections::VecDeque;
@@ -19,6 +20,8 @@ pub(super) struct TakeFile {
     reader: Reader<BufReader<File>>,
     ergonomic: AllErgonomicAngles,
     differences: Differences,
+    /// What the first sample lacked.
+    computed: Vec<&'static str>,
     /// The samples that came out at the end, once the file has ended.
     last: Option<VecDeque<Frame>>,
 }
@@ -34,6 +37,7 @@ impl TakeFile {
             reader,
             ergonomic,
             differences,
+            computed: Vec::new(),
             last: None,
         })
     }
@@ -54,6 +58,18 @@ fn rate_hz(subject: &Arc<Subject>) -> f64 {
 }
 
 impl Frames for TakeFile {
+    fn name(&self) -> String {
+        self.path.display().to_string()
+    }
+
+    fn states_rate(&self) -> bool {
+        self.reader.subject().rate.is_some()
+    }
+
+    fn computed(&self) -> Vec<&'static str> {
+        self.computed.clone()
+    }
+
     fn rate_hz(&self) -> f64 {
         rate_hz(self.reader.subject())
     }
@@ -63,6 +79,9 @@ impl Frames for TakeFile {
             let completed = match self.reader.next() {
                 Some(frame) => {
                     let mut frame = frame.map_err(|error| Error::take(&self.path, error))?;
+                    if self.reader.counts().normal == 1 {
+                        self.computed = lacking(&frame);
+                    }
                     self.ergonomic.complete(&mut frame);
                     complete(&mut frame);
                     self.differences.push(frame)
@@ -87,6 +106,48 @@ impl Frames for TakeFile {
     fn damage(&self) -> Option<String> {
         self.reader.damage().map(ToString::to_string)
     }
+}
+
+/// What a sample of a take lacks and its poses tell, in words.
+fn lacking(frame: &Frame) -> Vec<&'static str> {
+    let segments = !frame.orientation.is_empty() && !frame.position.is_empty();
+    let sensors = !frame.sensor_orientation.is_empty();
+    let sections = [
+        (segments && frame.velocity.is_empty(), "velocity"),
+        (segments && frame.acceleration.is_empty(), "acceleration"),
+        (segments && frame.angular_velocity.is_empty(), "angular velocity"),
+        (
+            segments && frame.angular_acceleration.is_empty(),
+            "angular acceleration",
+        ),
+        (segments && frame.joint_angles.is_empty(), "joint angles"),
+        (
+            segments && frame.ergonomic_angles.len() < ERGONOMIC_ANGLES.len(),
+            "ergonomic angles",
+        ),
+        (segments && frame.center_of_mass.is_none(), "centre of mass"),
+        (
+            frame.center_of_mass.is_some_and(|center| center.velocity.is_none()),
+            "the centre of mass's velocity",
+        ),
+        (
+            sensors && frame.sensor_free_acceleration.is_empty(),
+            "the sensors' free acceleration",
+        ),
+        (
+            sensors && frame.sensor_acceleration.is_empty(),
+            "the sensors' acceleration",
+        ),
+        (
+            sensors && frame.sensor_angular_velocity.is_empty(),
+            "the sensors' angular velocity",
+        ),
+    ];
+    sections
+        .into_iter()
+        .filter(|(lacks, _)| *lacks)
+        .map(|(_, what)| what)
+        .collect()
 }
 
 impl fmt::Debug for TakeFile {

@@ -7,7 +7,7 @@ use crate::pacer::Pacer;
 use crate::session::Outlet;
 use crate::stop::Stop;
 use crate::{Error, Item, Notice, Result};
-use posewire_motion::{Frame, Subject};
+use posewire_motion::{Frame, Subject, Timecode};
 use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ pub struct PlaybackOptions {
     pub rate_hz: Option<f64>,
     /// How many times as fast as recorded.
     pub speed: f64,
-    /// Whether to begin again at the end. Sample numbers and the clock go on.
+    /// Whether to begin again at the end. Sample numbers, the clock and the timecode go on.
     pub looped: bool,
     /// Ends after this long by the clock on the wall.
     pub duration: Option<Duration>,
@@ -46,14 +46,21 @@ impl Default for PlaybackOptions {
 pub struct Preview {
     /// Samples a second at which it was captured.
     pub rate_hz: f64,
+    /// Whether it says so, and the rate is not assumed.
+    pub states_rate: bool,
     /// Who is in it.
     pub subjects: Vec<Arc<Subject>>,
     /// The first sample of each subject.
     pub first: Vec<Frame>,
+    /// What it lacks and is worked out from its poses.
+    pub computed: Vec<&'static str>,
 }
 
 /// Frames in the order of their samples, not yet paced.
 pub(super) trait Frames: Send + fmt::Debug {
+    /// What to call it.
+    fn name(&self) -> String;
+
     /// Samples a second.
     fn rate_hz(&self) -> f64;
 
@@ -62,6 +69,16 @@ pub(super) trait Frames: Send + fmt::Debug {
 
     /// Goes back to the first sample.
     fn rewind(&mut self) -> Result<()>;
+
+    /// Whether the rate is known and not assumed.
+    fn states_rate(&self) -> bool {
+        true
+    }
+
+    /// What was worked out from poses because it is not there, once the first sample has been read.
+    fn computed(&self) -> Vec<&'static str> {
+        Vec::new()
+    }
 
     /// What ended the frames before their end, if something did.
     fn damage(&self) -> Option<String> {
@@ -95,7 +112,10 @@ impl Playback {
             });
         }
         let mut first = Vec::new();
-        frames.next_sample(&mut first)?;
+        if !frames.next_sample(&mut first)? {
+            return Err(Error::NoFrames { path: frames.name() });
+        }
+        let (computed, states_rate) = (frames.computed(), frames.states_rate());
         frames.rewind()?;
         let subjects = first.iter().map(|frame| Arc::clone(&frame.subject)).collect();
         Ok(Self {
@@ -103,8 +123,10 @@ impl Playback {
             options: options.clone(),
             preview: Preview {
                 rate_hz,
+                states_rate,
                 subjects,
                 first,
+                computed,
             },
         })
     }
@@ -226,7 +248,10 @@ impl Timeline {
     /// Numbers a frame of a later round on from the last round.
     fn carry_on(&self, frame: &mut Frame) {
         frame.sample = frame.sample.wrapping_add(self.past_samples as u32);
-        frame.time += self.offset(self.past_samples);
+        let past = self.offset(self.past_samples);
+        frame.time += past;
+        let later = |code: Timecode| u64::from(code.milliseconds()).saturating_add(past.as_millis() as u64);
+        frame.timecode = frame.timecode.map(|code| Timecode::from_milliseconds(later(code)));
     }
 
     /// Begins a new round; `false` when the last one had no sample.

@@ -30,6 +30,10 @@ impl Walkers {
 }
 
 impl Frames for Walkers {
+    fn name(&self) -> String {
+        "synthetic:walk".to_owned()
+    }
+
     fn rate_hz(&self) -> f64 {
         self.walk.rate()
     }
