@@ -159,6 +159,31 @@ impl<T> Producer<T> {
         Ok(!full)
     }
 
+    /// Adds all items under one lock, oldest first, as [`push_or_drop`](Self::push_or_drop) would one by one. The
+    /// vector is left empty and keeps its memory.
+    ///
+    /// # Errors
+    /// [`Closed`] as for `push_or_drop`; the items are gone.
+    pub fn push_all_or_drop(&self, items: &mut Vec<T>) -> Result<(), Closed> {
+        let mut state = self.shared.lock();
+        if state.closed {
+            items.clear();
+            return Err(Closed);
+        }
+        let room = match self.shared.policy {
+            Policy::Newest => items.len(),
+            Policy::Lossless => self.shared.capacity.saturating_sub(state.items.len()),
+        };
+        // Freed at the end of this function, outside of the lock.
+        let refused = items.split_off(room.min(items.len()));
+        state.dropped += refused.len() as u64;
+        for item in items.drain(..) {
+            self.shared.add(&mut state, item);
+        }
+        self.shared.release(state);
+        Ok(())
+    }
+
     /// How many items were dropped so far.
     pub fn dropped(&self) -> u64 {
         self.shared.lock().dropped
@@ -332,6 +357,21 @@ mod tests {
         assert_eq!(consumer.dropped(), 3);
         drop(producer);
         assert_eq!(drain_all(&consumer), [0, 1]);
+    }
+
+    #[test]
+    fn a_live_batch_fills_what_room_there_is() {
+        for (policy, left) in [(Policy::Lossless, [0, 1, 2]), (Policy::Newest, [2, 3, 4])] {
+            let (producer, consumer) = bounded(3, policy);
+            let mut batch = vec![0, 1];
+            producer.push_all_or_drop(&mut batch).unwrap();
+            batch.extend([2, 3, 4]);
+            producer.push_all_or_drop(&mut batch).unwrap();
+            assert_eq!((batch.len(), consumer.dropped()), (0, 2));
+            consumer.close();
+            assert_eq!(producer.push_all_or_drop(&mut vec![5]), Err(Closed));
+            assert_eq!(drain_all(&consumer), left);
+        }
     }
 
     #[test]

@@ -102,34 +102,72 @@ impl Outlet {
     }
 
     /// Hands the batch to every sink; `false` when no sink is left.
+    ///
+    /// A live source does not wait: what a full lossless queue cannot take is dropped and counted there.
     pub(crate) fn flush(&mut self) -> bool {
-        let Self { producers, live, batch } = self;
+        if self.live {
+            self.hand_over(Producer::push_all_or_drop)
+        } else {
+            self.hand_over(Producer::push_all)
+        }
+    }
+
+    /// Hands over the last batch. Nothing comes after it, so that a live source too waits for sinks that are behind.
+    pub(crate) fn finish(&mut self) {
+        self.hand_over(Producer::push_all);
+    }
+
+    fn hand_over(&mut self, push: fn(&Producer<Item>, &mut Vec<Item>) -> Result<(), Closed>) -> bool {
+        let Self { producers, batch, .. } = self;
         if batch.is_empty() {
             return !producers.is_empty();
         }
         let last = producers.len().saturating_sub(1);
         let mut place = 0;
         producers.retain(|producer| {
-            let items = if place == last {
-                std::mem::take(batch)
+            let pushed = if place == last {
+                push(producer, batch)
             } else {
-                batch.clone()
+                push(producer, &mut batch.clone())
             };
             place += 1;
-            hand_over(producer, items, *live).is_ok()
+            pushed.is_ok()
         });
         batch.clear();
         !producers.is_empty()
     }
 }
 
-/// A live source does not wait: what a full lossless queue cannot take is dropped and counted there.
-fn hand_over(producer: &Producer<Item>, mut items: Vec<Item>, live: bool) -> Result<(), Closed> {
-    if live {
-        items
-            .into_iter()
-            .try_for_each(|item| producer.push_or_drop(item).map(|_| ()))
-    } else {
-        producer.push_all(&mut items)
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Notice;
+    use crate::queue::Policy;
+
+    fn notice(number: u32) -> Item {
+        let problem = number.to_string();
+        Item::Notice(Notice::Damaged { problem })
+    }
+
+    #[test]
+    fn a_live_source_drops_for_a_slow_sink_but_not_its_last_words() {
+        let (producer, consumer) = bounded(1, Policy::Lossless);
+        let mut outlet = Outlet {
+            producers: vec![producer],
+            live: true,
+            batch: Vec::new(),
+        };
+        (0..3).for_each(|number| outlet.push(notice(number)));
+        assert!(outlet.flush());
+        outlet.push(notice(3));
+
+        let mut arrived = Vec::new();
+        thread::scope(|scope| {
+            scope.spawn(move || outlet.finish());
+            while consumer.drain(&mut arrived, Duration::from_mins(1)).is_open() {}
+        });
+        let arrived: Vec<_> = arrived.iter().map(|item| format!("{item:?}")).collect();
+        assert_eq!(arrived, [0, 3].map(|number| format!("{:?}", notice(number))));
+        assert_eq!(consumer.dropped(), 2);
     }
 }

@@ -77,7 +77,7 @@ impl<'a> Intake<'a> {
             },
             true,
         );
-        self.outlet.flush();
+        self.outlet.finish();
     }
 
     fn report(&mut self, edge: Edge, ended: bool) {
