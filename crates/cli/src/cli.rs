@@ -18,8 +18,11 @@ Where motion comes from and goes to:
                             a multicast group is joined; ?interface=eth0 says where, ?ttl=4 how far
   mxtp+tcp://HOST[:9763]    MXTP over TCP; stream connects and monitor listens, as with MVN
                             ?mode=listen and ?mode=connect turn that round
-  synthetic:walk            people made up on the spot: ?people=2&rate=240&props=1&fingers=true
+  synthetic:walk            people made up on the spot, or with all that can be said of them:
+                            \"synthetic:walk?people=2&rate=240&props=1&fingers=true\"
   take.mvnx, take.mvnx.gz   a take exported from MVN
+
+Put quotes around what has a ? or a &: shells give them a meaning of their own.
 
 Exit codes: 0 done, 1 failed, 2 wrong arguments, 3 done but data was lost on this side.
 
@@ -86,11 +89,11 @@ pub(crate) struct Stream {
 #[derive(Debug, Args)]
 pub(crate) struct Playback {
     /// Send only so many samples a second; they keep their own sample numbers.
-    #[arg(long, value_name = "HZ")]
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     pub(crate) rate: Option<f64>,
 
     /// Play so many times as fast as recorded.
-    #[arg(long, value_name = "X", default_value_t = 1.0)]
+    #[arg(long, value_name = "X", default_value_t = 1.0, allow_negative_numbers = true)]
     pub(crate) speed: f64,
 
     /// Begin again at the end; sample numbers go on.
@@ -98,7 +101,7 @@ pub(crate) struct Playback {
     pub(crate) looped: bool,
 
     /// Stop after so many seconds.
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     pub(crate) duration: Option<Duration>,
 
     /// Use a damaged file up to the damage.
@@ -140,7 +143,7 @@ pub(crate) struct Monitor {
     pub(crate) plain: bool,
 
     /// Stop after so many seconds.
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     pub(crate) duration: Option<Duration>,
 
     /// Stop after so many samples, of all characters together.
@@ -150,6 +153,11 @@ pub(crate) struct Monitor {
 
 /// Say what a take holds.
 #[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  posewire inspect take.mvnx
+  posewire inspect cut-off.mvnx --salvage
+  posewire inspect take.mvnx.gz --json")]
 pub(crate) struct Inspect {
     /// An .mvnx or .mvnx.gz file.
     pub(crate) file: PathBuf,
@@ -182,13 +190,18 @@ pub(crate) struct Explain {
 
 /// See it work: people walk, are streamed over the loopback and monitored.
 #[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  posewire demo
+  posewire demo --people 5
+  posewire demo --duration 10 --json")]
 pub(crate) struct Demo {
     /// How many people walk, 1 to 64.
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u8).range(1..=64))]
     pub(crate) people: u8,
 
     /// End by itself after so many seconds and print the statistics.
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     pub(crate) duration: Option<Duration>,
 
     /// Print JSON, as monitor does.

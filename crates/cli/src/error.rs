@@ -24,6 +24,9 @@ pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
     if is_closed_pipe(error) {
         return ExitCode::SUCCESS;
     }
+    if let Some(error) = error.downcast_ref::<std::io::Error>() {
+        return report(&posewire::Error::write("the standard output", error).into());
+    }
     let (usage, help) = if let Some(error) = error.downcast_ref::<posewire::Error>() {
         (error.is_usage(), error.help())
     } else if let Some(usage) = error.downcast_ref::<Usage>() {

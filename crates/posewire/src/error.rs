@@ -193,7 +193,7 @@ impl Error {
             Self::Rate { .. } => Some("leave --rate out to send every sample".into()),
             Self::NotATarget { .. } => Some("give a network address, as in --to mxtp://127.0.0.1:9763".into()),
             Self::Character { .. } => Some("start at a lower --character, or stream fewer people".into()),
-            Self::Write { .. } => None,
+            Self::Write { .. } => Some("make room there, or send the output elsewhere".into()),
             Self::Speed { .. } => Some("1 is real time, 0.5 half as fast".into()),
         }
     }

@@ -6,7 +6,7 @@ use crate::context::{self, Teller, end_progress, say, show_progress};
 use crate::error::Usage;
 use crate::plain::plural;
 use crate::{json, render};
-use posewire::endpoint::Endpoint;
+use posewire::endpoint::{Endpoint, Host};
 use posewire::sink::{MxtpSink, MxtpSinkOptions, Progress};
 use posewire::source::{PlaybackOptions, Preview};
 use posewire::{Session, Sink, Source};
@@ -39,6 +39,8 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
         character: arguments.character,
         name: arguments.name.clone(),
     };
+    refuse_too_many(&source, &options)?;
+    refuse_loop(source.endpoint(), &targets)?;
     let sink = MxtpSink::open(&targets, options.clone())?;
     let progress = sink.progress();
     announce(&source, &options, &read(&progress));
@@ -50,7 +52,7 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
     let sinks: Vec<Box<dyn Sink>> = vec![Box::new(sink), Box::new(teller.clone())];
     let session = Session::start(source, sinks, stop.clone());
     let mut peers = peers_of(&read(&progress));
-    while session.is_running() && !stop.wait(Duration::from_millis(200)) {
+    while !stop.wait(Duration::from_millis(200)) && session.is_running() {
         let progress = read(&progress);
         tell_of_peers(&mut peers, &progress);
         show_progress(render::progress_line(&progress));
@@ -81,6 +83,42 @@ fn refuse_playback(arguments: &Playback) -> Result<(), Usage> {
         Some((option, _)) => Err(Usage {
             problem: format!("{option} is for takes and the walker, and the source is a live stream"),
             help: format!("leave {option} out"),
+        }),
+    }
+}
+
+/// Every subject needs a character number that fits into a byte.
+fn refuse_too_many(source: &Source, options: &MxtpSinkOptions) -> posewire::Result<()> {
+    let last = source
+        .preview()
+        .and_then(|preview| preview.subjects.iter().map(|subject| subject.id).max());
+    let found = u32::from(options.character).saturating_add(last.unwrap_or(0));
+    if found > u32::from(u8::MAX) {
+        return Err(posewire::Error::Character { found });
+    }
+    Ok(())
+}
+
+/// What is received on a port and sent to the same port of this machine comes back for ever.
+fn refuse_loop(source: &Endpoint, targets: &[Endpoint]) -> Result<(), Usage> {
+    let Endpoint::MxtpUdp(source) = source else {
+        return Ok(());
+    };
+    let comes_back = |target: &&Endpoint| match target {
+        Endpoint::MxtpUdp(target) => {
+            let here = matches!(&target.host, Host::Address(address) if address.is_loopback());
+            target.port == source.port && (here || target.host == source.host)
+        }
+        _ => false,
+    };
+    match targets.iter().find(comes_back) {
+        None => Ok(()),
+        Some(target) => Err(Usage {
+            problem: format!(
+                "what comes in on port {} would be sent to itself, {target}",
+                source.port
+            ),
+            help: "name another target with --to".to_owned(),
         }),
     }
 }
@@ -125,6 +163,25 @@ fn announce(source: &Source, options: &MxtpSinkOptions, progress: &Progress) {
     ));
     for target in &progress.targets {
         say(format_args!("  to {}", target.endpoint));
+    }
+    if let Some(preview) = source.preview() {
+        announce_guesses(preview);
+    }
+}
+
+/// Says what of the stream is not from the take.
+fn announce_guesses(preview: &Preview) {
+    if !preview.states_rate {
+        say(format_args!(
+            "the take does not state its rate: {} Hz is assumed",
+            preview.rate_hz
+        ));
+    }
+    if !preview.computed.is_empty() {
+        say(format_args!(
+            "computed, as the take lacks it: {}",
+            preview.computed.join(", ")
+        ));
     }
 }
 

@@ -1,6 +1,6 @@
 //! `posewire monitor` alone.
 
-use crate::program::Monitor;
+use crate::program::{Monitor, objects};
 use std::net::UdpSocket;
 
 #[test]
@@ -10,7 +10,8 @@ fn when_what_comes_is_not_mxtp_it_says_so() {
     let target = monitor.endpoint.strip_prefix("mxtp://").unwrap();
     socket.send_to(b"GET \x1b[2J", target).unwrap();
     let ended = monitor.end();
-    assert_eq!((ended.code, ended.out.as_str()), (Some(0), ""));
+    let receiver = objects(&ended.out, "receiver").pop().unwrap();
+    assert_eq!((ended.code, &receiver["malformed"]), (Some(0), &1.into()));
     assert!(ended.err.contains("1 datagram, none MXTP"), "{}", ended.err);
     assert!(!ended.err.contains('\x1b'), "{:?}", ended.err);
 }

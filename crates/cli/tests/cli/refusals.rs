@@ -1,6 +1,7 @@
 //! What cannot be done is said in one `error:` line and one `help:` line.
 
 use crate::program::posewire;
+use crate::takes::small_take;
 use std::fs;
 use std::net::{TcpListener, UdpSocket};
 use std::path::Path;
@@ -41,6 +42,19 @@ fn wrong_arguments_end_with_2() {
         (&["stream", "synthetic:walk?people=65"], "from 1 to 64", "people"),
         (&["stream", walk, "--rate", "500"], "at most 240 Hz", "--rate"),
         (&["stream", walk, "--speed", "0"], "above 0", "real time"),
+        (&["stream", walk, "--speed", "-1"], "above 0", "real time"),
+        (
+            &["stream", "synthetic:walk?people=3", "--character", "254"],
+            "from 0 to 255, found 256",
+            "--character",
+        ),
+        (&["monitor", walk], "expected a live stream", "posewire demo"),
+        (
+            &["monitor", "take.mvnx"],
+            "expected a live stream",
+            "posewire inspect take.mvnx",
+        ),
+        (&["stream", "mxtp://127.0.0.1:9763"], "would be sent to itself", "--to"),
         (
             &["stream", "mxtp://127.0.0.1:0", "--rate", "60"],
             "--rate is for takes",
@@ -60,6 +74,19 @@ fn wrong_arguments_end_with_2() {
     ] {
         assert_refused(folder.path(), arguments, 2, error, help);
     }
+}
+
+#[test]
+fn a_take_without_frames_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("empty.mvnx"), small_take(0)).unwrap();
+    assert_refused(
+        folder.path(),
+        &["stream", "empty.mvnx"],
+        1,
+        "empty.mvnx: expected frames, found none",
+        "inspect",
+    );
 }
 
 #[test]

@@ -33,6 +33,7 @@ fn a_walker_is_streamed_and_monitored_with_all_that_it_has() {
     );
 
     assert_documented(summary, "stream", &[]);
+    assert_eq!(summary["targets"][0]["peers"], 1);
 
     let ended = monitor.end();
     assert_eq!(ended.code, Some(0), "{}", ended.err);
@@ -52,6 +53,14 @@ fn a_walker_is_streamed_and_monitored_with_all_that_it_has() {
     assert_eq!(frame["sensors"].as_array().unwrap().len(), 17);
     assert_eq!(frame["center_of_mass"]["velocity"].as_array().unwrap().len(), 3);
     assert!(frame["markers"].as_array().unwrap().len() > 30);
+    let subject = &objects(&ended.out, "subject").pop().unwrap();
+    assert_documented(subject, "subject", &[]);
+    assert_eq!(
+        (&subject["name"], &subject["segments"][22]["name"]),
+        (&"Ada".into(), &"LeftToe".into())
+    );
+    assert_eq!(subject["segments"][0]["points"][12]["name"], "pSacrum");
+    assert_documented(&objects(&ended.out, "receiver")[0], "receiver", &[]);
     let statistics = objects(&ended.out, "statistics");
     let pose = statistics.iter().rfind(|object| object["type"] == "02").unwrap();
     assert_documented(pose, "statistics", &[]);

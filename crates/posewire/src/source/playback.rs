@@ -104,6 +104,7 @@ impl Playback {
     }
 
     fn new(mut frames: Box<dyn Frames>, options: &PlaybackOptions) -> Result<Self> {
+        Pacer::new(Instant::now(), options.speed, Stop::new())?;
         let rate_hz = frames.rate_hz();
         if let Some(found) = options.rate_hz.filter(|rate| !(*rate > 0.0 && *rate <= rate_hz)) {
             return Err(Error::Rate {

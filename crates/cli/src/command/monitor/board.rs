@@ -1,6 +1,7 @@
 //! The newest of everything, for whoever shows it.
 
 use crate::plain::{plural, printable};
+use posewire::endpoint::{Endpoint, TcpMode};
 use posewire::queue::Policy;
 use posewire::stats::Statistics;
 use posewire::stop::Stop;
@@ -13,6 +14,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 #[derive(Clone)]
 pub(super) struct Board {
     listening: Arc<str>,
+    /// Whether it is we who connect to the sender.
+    connects: bool,
     newest: Arc<Mutex<Newest>>,
     count: Option<u64>,
     stop: Stop,
@@ -28,9 +31,10 @@ struct Newest {
 
 impl Board {
     /// A board that sets `stop` after `count` samples.
-    pub(super) fn new(listening: String, count: Option<u64>, stop: Stop) -> Self {
+    pub(super) fn new(endpoint: &Endpoint, count: Option<u64>, stop: Stop) -> Self {
         Self {
-            listening: listening.into(),
+            listening: endpoint.to_string().into(),
+            connects: matches!(endpoint, Endpoint::MxtpTcp(address) if address.mode == Some(TcpMode::Connect)),
             newest: Arc::default(),
             count,
             stop,
@@ -44,6 +48,12 @@ impl Board {
 
     pub(super) fn listening(&self) -> &str {
         &self.listening
+    }
+
+    /// What to say when it begins.
+    pub(super) fn opening(&self) -> String {
+        let verb = if self.connects { "connecting to" } else { "listening on" };
+        format!("{verb} {}", self.listening)
     }
 
     pub(super) fn statistics(&self) -> Option<Arc<Statistics>> {
@@ -74,6 +84,11 @@ impl Board {
         }
         match self.statistics() {
             Some(all) if all.datagrams > 0 || all.skipped_bytes > 0 => unreadable(listening, &all),
+            _ if self.connects => format!(
+                "nothing has come from {listening} yet. Check that\n\
+                 - a streamer listens there, as posewire stream does with ?mode=listen\n\
+                 - no firewall keeps us away from that port"
+            ),
             _ => format!(
                 "nothing has come to {listening} yet. Check that\n\
                  - the sender streams to an address of this machine and to this port\n\
@@ -148,7 +163,7 @@ mod tests {
 
     #[test]
     fn what_cannot_be_read_is_told_from_what_does_not_come() {
-        let board = Board::new("mxtp://127.0.0.1:9763".to_owned(), None, Stop::new());
+        let board = Board::new(&"mxtp://127.0.0.1:9763".parse().unwrap(), None, Stop::new());
         let mut sink = board.sink();
         assert!(
             board

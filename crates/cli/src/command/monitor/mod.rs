@@ -8,6 +8,7 @@ mod silence;
 use super::End;
 use crate::cli::Monitor;
 use crate::context::{self, say};
+use crate::error::Usage;
 use board::Board;
 use posewire::endpoint::Endpoint;
 use posewire::source::PlaybackOptions;
@@ -20,10 +21,24 @@ use std::time::{Duration, Instant};
 pub(super) fn run(arguments: &Monitor) -> anyhow::Result<End> {
     let stop = context::stop_on_interrupt()?;
     let endpoint: Endpoint = arguments.url.parse()?;
+    refuse_files(&endpoint)?;
     let source = Source::open(&endpoint, &PlaybackOptions::default())?;
     context::stop_after(&stop, arguments.duration);
     let view = View::choose(arguments.json, arguments.frames, arguments.plain);
     show(source, view, arguments.count, &stop)
+}
+
+/// What is not live is not monitored.
+fn refuse_files(endpoint: &Endpoint) -> Result<(), Usage> {
+    let help = match endpoint {
+        Endpoint::File { .. } => format!("posewire inspect {endpoint} says what it holds, posewire stream sends it"),
+        Endpoint::Synthetic(_) => "posewire demo shows the walker".to_owned(),
+        _ => return Ok(()),
+    };
+    Err(Usage {
+        problem: format!("expected a live stream to monitor, as mxtp://0.0.0.0:9763, found {endpoint}"),
+        help,
+    })
 }
 
 /// How a stream is shown.
@@ -49,13 +64,12 @@ impl View {
 
 /// Shows a stream until it ends, `count` samples have come or `stop` is set.
 pub(super) fn show(source: Source, view: View, count: Option<u64>, stop: &Stop) -> anyhow::Result<End> {
-    let listening = source.endpoint().to_string();
-    let board = Board::new(listening, count, stop.clone());
+    let board = Board::new(source.endpoint(), count, stop.clone());
     let watched = board.clone();
     let mut sinks: Vec<Box<dyn Sink>> = vec![Box::new(board.sink())];
     match view {
         View::Print(format) => {
-            say(format_args!("listening on {}", board.listening()));
+            say(board.opening());
             sinks.push(Box::new(Printer::new(format, count)));
             let session = Session::start(source, sinks, stop.clone());
             warn_of_silence(&watched, &session, stop);

@@ -49,6 +49,7 @@ impl Printer {
         match self.format {
             Format::Plain => write_plain(&mut self.out, statistics)?,
             Format::Json { .. } => {
+                json::write(&mut self.out, &json::ReceiverRecord::new(statistics))?;
                 json::statistics(statistics).try_for_each(|object| json::write(&mut self.out, &object))?;
             }
         }
@@ -68,6 +69,9 @@ impl Sink for Printer {
     fn accept(&mut self, item: &Item) -> Result<()> {
         match item {
             Item::Frame { frame, .. } => self.frame(frame),
+            Item::Subject(subject) if self.format == (Format::Json { frames: true }) => {
+                json::write(&mut self.out, &json::SubjectRecord::new(subject))
+            }
             Item::Statistics(statistics) => self.statistics(statistics),
             Item::Notice(notice) => {
                 say(notice);

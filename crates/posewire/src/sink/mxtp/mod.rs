@@ -204,10 +204,15 @@ impl Sink for MxtpSink {
     }
 
     fn finish(&mut self) -> Result<()> {
+        // Those who are served to the end, and not nobody, which is who is left after it.
+        let peers: Vec<_> = self.targets.iter().map(|target| target.progress().peers).collect();
         self.targets.iter_mut().for_each(Target::finish);
         let mut progress = self.progress.lock().unwrap_or_else(PoisonError::into_inner);
         progress.lateness = self.lateness.summary();
-        progress.targets = self.targets.iter().map(Target::progress).collect();
+        let targets = self.targets.iter().map(Target::progress).zip(peers);
+        progress.targets = targets
+            .map(|(target, peers)| TargetProgress { peers, ..target })
+            .collect();
         Ok(())
     }
 }

@@ -28,7 +28,7 @@ impl Progress {
 pub struct TargetProgress {
     /// The target's endpoint.
     pub endpoint: String,
-    /// Peers connected now; of UDP always 1.
+    /// Peers connected now, at the end those that were served to it; of UDP always 1.
     pub peers: usize,
     /// Datagrams that the system took.
     pub datagrams: u64,

@@ -153,7 +153,7 @@ mod tests {
     use posewire_motion::Stamp;
 
     fn board() -> Board {
-        Board::new("mxtp://127.0.0.1:9763".to_owned(), None, Stop::new())
+        Board::new(&"mxtp://127.0.0.1:9763".parse().unwrap(), None, Stop::new())
     }
 
     fn sample(id: u32) -> Item {

@@ -1,0 +1,104 @@
+//! How a stream is doing that we receive.
+
+use super::{Spread, rounded};
+use posewire::stats::{Statistics, TypeStatistics};
+use posewire_motion::Subject;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// How a receiver is doing: what belongs to no character.
+#[derive(Serialize)]
+pub(crate) struct ReceiverRecord<'a> {
+    kind: &'static str,
+    datagrams: u64,
+    bytes: u64,
+    malformed: u64,
+    last_malformed: Option<&'a str>,
+    skipped_bytes: u64,
+    kernel_dropped: u64,
+    characters_refused: u64,
+    elapsed_s: f64,
+    ended: bool,
+}
+
+impl<'a> ReceiverRecord<'a> {
+    pub(crate) fn new(all: &'a Statistics) -> Self {
+        Self {
+            kind: "receiver",
+            datagrams: all.datagrams,
+            bytes: all.bytes,
+            malformed: all.malformed,
+            last_malformed: all.last_malformed.as_deref(),
+            skipped_bytes: all.skipped_bytes,
+            kernel_dropped: all.kernel_dropped,
+            characters_refused: all.characters_refused,
+            elapsed_s: rounded(all.elapsed.as_secs_f64()),
+            ended: all.ended,
+        }
+    }
+}
+
+/// How one datagram type of one character is doing.
+#[derive(Serialize)]
+pub(crate) struct StatisticsRecord<'a> {
+    kind: &'static str,
+    character: u32,
+    name: &'a str,
+    r#type: String,
+    rate_hz: f64,
+    stride: Option<u32>,
+    received: u64,
+    missing: u64,
+    duplicate: u64,
+    late: u64,
+    reset: u64,
+    malformed: u64,
+    incomplete: u64,
+    kernel_dropped: u64,
+    datagrams: u64,
+    quirks: BTreeMap<&'static str, u64>,
+    interval_ms: Spread,
+    elapsed_s: f64,
+    ended: bool,
+}
+
+/// One record for each character and datagram type.
+pub(crate) fn statistics(all: &Statistics) -> impl Iterator<Item = StatisticsRecord<'_>> {
+    let subjects = all.subjects.iter();
+    subjects.flat_map(move |of| {
+        of.types
+            .iter()
+            .map(move |of_type| StatisticsRecord::new(all, &of.subject, of_type))
+    })
+}
+
+impl<'a> StatisticsRecord<'a> {
+    fn new(all: &Statistics, subject: &'a Subject, of_type: &TypeStatistics) -> Self {
+        let counters = &of_type.counters;
+        Self {
+            kind: "statistics",
+            character: subject.id,
+            name: &subject.name,
+            r#type: of_type.message_type.to_string(),
+            rate_hz: rounded(of_type.rate_hz),
+            stride: counters.stride,
+            received: counters.received,
+            missing: counters.missing,
+            duplicate: counters.duplicate,
+            late: counters.late,
+            reset: counters.reset,
+            malformed: counters.malformed,
+            incomplete: counters.incomplete,
+            kernel_dropped: all.kernel_dropped,
+            datagrams: counters.datagrams,
+            quirks: counters
+                .quirks
+                .iter()
+                .map(|(quirk, count)| (quirk.name(), count))
+                .collect(),
+            interval_ms: of_type.interval.into(),
+            elapsed_s: rounded(all.elapsed.as_secs_f64()),
+            ended: all.ended,
+        }
+    }
+}
