@@ -50,8 +50,9 @@ impl<'a> Intake<'a> {
             self.assembler.handle_timeout(now);
             self.forward(now);
         }
-        if Instant::now() >= self.next_report {
-            self.next_report += REPORT_EVERY;
+        let instant = Instant::now();
+        if instant >= self.next_report {
+            self.next_report = report_after(self.next_report, instant);
             self.report(
                 Edge {
                     now,
@@ -108,6 +109,26 @@ impl<'a> Intake<'a> {
     }
 }
 
+/// When the next report is due after one that was due and is given now. Those missed in a stall are left out.
+fn report_after(due: Instant, now: Instant) -> Instant {
+    let next = due + REPORT_EVERY;
+    if next > now { next } else { now + REPORT_EVERY }
+}
+
 /// The longest that a source waits before it looks at the clock.
 pub(super) const TICK: Duration = Duration::from_millis(20);
 const REPORT_EVERY: Duration = Duration::from_secs(1);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reports_missed_in_a_stall_are_left_out() {
+        let due = Instant::now();
+        let late = |milliseconds| due + Duration::from_millis(milliseconds);
+        assert_eq!(report_after(due, late(20)), late(1000));
+        assert_eq!(report_after(due, late(1000)), late(2000));
+        assert_eq!(report_after(due, late(60_500)), late(61_500));
+    }
+}
