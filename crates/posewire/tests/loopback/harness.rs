@@ -112,8 +112,12 @@ pub(crate) struct Receiver {
 
 impl Receiver {
     pub(crate) fn start(endpoint: &str) -> Self {
-        let source = Source::open(&endpoint.parse().unwrap(), &PlaybackOptions::default()).unwrap();
-        let (endpoint, gatherer, stop) = (source.endpoint().clone(), Gatherer::default(), Stop::new());
+        Self::run(open(endpoint).unwrap(), Stop::new())
+    }
+
+    /// Runs a source that is open until the stop.
+    pub(crate) fn run(source: Source, stop: Stop) -> Self {
+        let (endpoint, gatherer) = (source.endpoint().clone(), Gatherer::default());
         let session = Session::start(source, vec![Box::new(gatherer.clone())], stop.clone());
         Self {
             endpoint,
@@ -127,10 +131,20 @@ impl Receiver {
     pub(crate) fn finish(self, frames: u64) -> Gathered {
         self.gatherer
             .wait_until(|gathered| gathered.frames.len() as u64 >= frames);
+        self.stop()
+    }
+
+    /// Ends at once and gives everything.
+    pub(crate) fn stop(self) -> Gathered {
         self.stop.stop();
         assert_eq!(self.session.wait().unwrap().dropped, 0);
         self.gatherer.lock().clone()
     }
+}
+
+/// Opens a source with the usual options.
+pub(crate) fn open(endpoint: &str) -> Result<Source> {
+    Source::open(&endpoint.parse().unwrap(), &PlaybackOptions::default())
 }
 
 /// Plays a source to a sink until it ends.

@@ -117,6 +117,8 @@ fn report_after(due: Instant, now: Instant) -> Instant {
 
 /// The longest that a source waits before it looks at the clock.
 pub(super) const TICK: Duration = Duration::from_millis(20);
+/// How long a source goes on at the stop with what has arrived by then.
+pub(super) const DRAIN_LIMIT: Duration = Duration::from_millis(100);
 const REPORT_EVERY: Duration = Duration::from_secs(1);
 
 #[cfg(test)]

@@ -1,11 +1,12 @@
 //! MXTP over UDP.
 
-use super::intake::{Intake, TICK};
+use super::intake::{DRAIN_LIMIT, Intake, TICK};
 use crate::Result;
 use crate::endpoint::{Endpoint, UdpAddress};
 use crate::net::UdpReceiver;
 use crate::session::Outlet;
 use crate::stop::Stop;
+use std::time::{Duration, Instant};
 
 /// A bound socket that MXTP datagrams arrive on.
 #[derive(Debug)]
@@ -33,14 +34,30 @@ impl MxtpUdp {
 
     pub(in crate::source) fn run(mut self, outlet: &mut Outlet, stop: &Stop) -> Result<()> {
         let mut intake = Intake::new(outlet);
+        let received = self.receive_all(&mut intake, stop);
+        // Also after an error: the numbers up to there are true.
+        intake.finish(self.receiver.kernel_dropped(), 0);
+        received
+    }
+
+    /// Receives until the stop, and then what the system had taken by then.
+    fn receive_all(&mut self, intake: &mut Intake<'_>, stop: &Stop) -> Result<()> {
         while !stop.is_stopped() {
-            self.receiver
-                .receive(TICK, |received| intake.datagram(received.stamp, received.bytes))?;
+            self.receive(intake, TICK)?;
             if !intake.tick(self.receiver.kernel_dropped(), 0) {
-                break;
+                return Ok(());
             }
         }
-        intake.finish(self.receiver.kernel_dropped(), 0);
+        // A sender that goes on must not hold up the end.
+        let until = Instant::now() + DRAIN_LIMIT;
+        while Instant::now() < until && self.receive(intake, Duration::ZERO)? > 0 {
+            intake.tick(self.receiver.kernel_dropped(), 0);
+        }
         Ok(())
+    }
+
+    fn receive(&mut self, intake: &mut Intake<'_>, timeout: Duration) -> Result<usize> {
+        self.receiver
+            .receive(timeout, |received| intake.datagram(received.stamp, received.bytes))
     }
 }
