@@ -72,7 +72,10 @@ impl Source {
     pub(crate) fn run(self, outlet: &mut Outlet, stop: &Stop) -> Result<()> {
         match self.kind {
             Kind::MxtpUdp(source) => source.run(outlet, stop),
-            Kind::MxtpTcp(source) => source.run(outlet, stop),
+            Kind::MxtpTcp(source) => {
+                source.run(outlet, stop);
+                Ok(())
+            }
             Kind::Playback(playback) => playback.run(outlet, stop),
         }
     }

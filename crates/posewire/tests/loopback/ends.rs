@@ -1,11 +1,15 @@
-//! How live sources end: what has arrived at the stop.
+//! How live sources end: without sinks, and with what has arrived at the stop.
 
-use crate::harness::{Receiver, open};
+use crate::harness::{PATIENCE, Receiver, open};
 use posewire::endpoint::{Endpoint, Host};
 use posewire::stop::Stop;
+use posewire::{Notice, Session};
 use posewire_mxtp::body::Body;
 use posewire_mxtp::{Datagram, Header, MessageType};
-use std::net::{SocketAddr, UdpSocket};
+use std::io::{ErrorKind, Read, Write};
+use std::net::{SocketAddr, TcpListener, TcpStream, UdpSocket};
+use std::sync::mpsc;
+use std::thread;
 
 /// Where a source on a numeric address can be reached.
 fn place_of(endpoint: &Endpoint) -> SocketAddr {
@@ -18,6 +22,11 @@ fn place_of(endpoint: &Endpoint) -> SocketAddr {
         panic!("{host} is a name");
     };
     SocketAddr::new(*address, port)
+}
+
+/// A place on the loopback where nobody listens.
+fn deserted() -> SocketAddr {
+    TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap()
 }
 
 /// A datagram of a type that nobody knows, which does not say how long it is.
@@ -46,4 +55,58 @@ fn datagrams_that_arrived_before_the_stop_count() {
     }
     let statistics = Receiver::run(source, stopped()).stop().statistics.unwrap();
     assert_eq!((statistics.datagrams, statistics.kernel_dropped), (100, 0));
+}
+
+#[test]
+fn a_stream_that_arrived_before_the_stop_counts_to_its_last_datagram() {
+    let source = open("mxtp+tcp://127.0.0.1:0").unwrap();
+    let mut peer = TcpStream::connect(place_of(source.endpoint())).unwrap();
+    for sample in 0..100 {
+        peer.write_all(&datagram(sample)).unwrap();
+    }
+    drop(peer);
+    let statistics = Receiver::run(source, stopped()).stop().statistics.unwrap();
+    assert_eq!((statistics.datagrams, statistics.skipped_bytes), (100, 0));
+}
+
+#[test]
+fn what_an_open_connection_brought_before_the_stop_counts() {
+    let receiver = Receiver::start("mxtp+tcp://127.0.0.1:0");
+    let mut peer = TcpStream::connect(place_of(&receiver.endpoint)).unwrap();
+    for sample in 0..1000 {
+        peer.write_all(&datagram(sample)).unwrap();
+    }
+    let gathered = receiver.stop();
+    // The last one ends where the next begins, which never came.
+    assert_eq!(gathered.statistics.unwrap().datagrams, 999);
+    assert!(matches!(*gathered.notices, [Notice::Connected { .. }]));
+}
+
+#[test]
+fn connections_are_closed_when_the_session_has_ended() {
+    let receiver = Receiver::start("mxtp+tcp://127.0.0.1:0");
+    let place = place_of(&receiver.endpoint);
+    let mut peers = [place; 3].map(|place| TcpStream::connect(place).unwrap());
+    receiver.gatherer.wait_until(|gathered| gathered.notices.len() == 3);
+    receiver.stop();
+    for peer in &mut peers {
+        peer.set_nonblocking(true).unwrap();
+        assert_eq!(peer.read(&mut [0]).unwrap(), 0);
+    }
+    assert_eq!(
+        TcpStream::connect(place).unwrap_err().kind(),
+        ErrorKind::ConnectionRefused
+    );
+}
+
+#[test]
+fn a_live_source_without_sinks_ends() {
+    let calling = format!("mxtp+tcp://{}?mode=connect", deserted());
+    for endpoint in ["mxtp://127.0.0.1:0", "mxtp+tcp://127.0.0.1:0", &calling] {
+        let session = Session::start(open(endpoint).unwrap(), Vec::new(), Stop::new());
+        let (done, ended) = mpsc::channel();
+        thread::spawn(move || done.send(session.wait()));
+        let outcome = ended.recv_timeout(PATIENCE);
+        assert!(outcome.expect(endpoint).is_ok());
+    }
 }

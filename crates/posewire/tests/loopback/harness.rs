@@ -5,7 +5,7 @@ use posewire::sink::{MxtpSink, MxtpSinkOptions, Progress};
 use posewire::source::PlaybackOptions;
 use posewire::stats::{Statistics, TypeStatistics};
 use posewire::stop::Stop;
-use posewire::{Item, Result, Session, Sink, Source};
+use posewire::{Item, Notice, Result, Session, Sink, Source};
 use posewire_motion::{Frame, Subject};
 use posewire_mxtp::MessageType;
 use posewire_mxtp::motion::MessageTypes;
@@ -18,6 +18,7 @@ pub(crate) struct Gathered {
     pub(crate) frames: Vec<Arc<Frame>>,
     pub(crate) subjects: Vec<Arc<Subject>>,
     pub(crate) statistics: Option<Arc<Statistics>>,
+    pub(crate) notices: Vec<Notice>,
 }
 
 impl Gathered {
@@ -95,6 +96,7 @@ impl Sink for Gatherer {
             Item::Frame { frame, .. } => gathered.frames.push(Arc::clone(frame)),
             Item::Subject(subject) => gathered.subjects.push(Arc::clone(subject)),
             Item::Statistics(statistics) => gathered.statistics = Some(Arc::clone(statistics)),
+            Item::Notice(notice) => gathered.notices.push(notice.clone()),
             _ => {}
         }
         self.0.1.notify_all();
@@ -184,4 +186,4 @@ pub(crate) fn seconds(seconds: f64) -> PlaybackOptions {
 }
 
 /// Far more than any test needs on the slowest machine.
-const PATIENCE: Duration = Duration::from_mins(1);
+pub(crate) const PATIENCE: Duration = Duration::from_mins(1);
