@@ -1,5 +1,6 @@
 //! What travels from a source to its sinks.
 
+use crate::Error;
 use crate::stats::Statistics;
 use posewire_motion::{Frame, Subject};
 use std::fmt;
@@ -41,6 +42,11 @@ pub enum Notice {
         /// Why, in the system's words.
         reason: String,
     },
+    /// No connection comes about. It is tried again, and only the first of failures in a row is told.
+    NotConnected {
+        /// What failed, and where.
+        error: Error,
+    },
     /// A file ended before its end, and the frames up to there were used.
     Damaged {
         /// What is wrong and where.
@@ -53,6 +59,7 @@ impl fmt::Display for Notice {
         match self {
             Self::Connected { peer } => write!(f, "connected to {peer}"),
             Self::Disconnected { peer, reason } => write!(f, "lost the connection to {peer}: {reason}"),
+            Self::NotConnected { error } => write!(f, "{error}; trying again"),
             Self::Damaged { problem } => write!(f, "the file is damaged: {problem}"),
         }
     }

@@ -27,6 +27,7 @@ mod udp_send;
 
 pub use backoff::Backoff;
 pub use resolve::resolve;
+pub(crate) use tcp::connect_to;
 pub use tcp::{TcpConnection, TcpIncoming, connect, listen};
 pub use udp_receive::{Received, UdpReceiver};
 pub use udp_send::{SendCounts, UdpSender};

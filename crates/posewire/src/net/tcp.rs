@@ -44,6 +44,16 @@ pub fn connect(address: &TcpAddress, timeout: Duration) -> Result<TcpConnection>
     Err(Error::socket("connect to", place, &failure))
 }
 
+/// Connects to one address within `timeout`.
+///
+/// # Errors
+/// [`Error::Socket`] when it does not answer or refuses.
+pub(crate) fn connect_to(address: SocketAddr, timeout: Duration) -> Result<TcpConnection> {
+    TcpStream::connect_timeout(&address, timeout.max(Duration::from_millis(1)))
+        .and_then(|stream| TcpConnection::over(stream, address))
+        .map_err(|error| Error::socket("connect to", format!("tcp {address}"), &error))
+}
+
 /// A listening TCP socket.
 #[derive(Debug)]
 pub struct TcpIncoming {

@@ -1,15 +1,16 @@
-//! How live sources end: without sinks, and with what has arrived at the stop.
+//! How live sources begin and end: nobody there, peers that hang up, and what has arrived at the stop.
 
 use crate::harness::{PATIENCE, Receiver, open};
 use posewire::endpoint::{Endpoint, Host};
 use posewire::stop::Stop;
-use posewire::{Notice, Session};
+use posewire::{Error, Notice, Session};
 use posewire_mxtp::body::Body;
 use posewire_mxtp::{Datagram, Header, MessageType};
 use std::io::{ErrorKind, Read, Write};
 use std::net::{SocketAddr, TcpListener, TcpStream, UdpSocket};
 use std::sync::mpsc;
 use std::thread;
+use std::time::{Duration, Instant};
 
 /// Where a source on a numeric address can be reached.
 fn place_of(endpoint: &Endpoint) -> SocketAddr {
@@ -109,4 +110,47 @@ fn a_live_source_without_sinks_ends() {
         let outcome = ended.recv_timeout(PATIENCE);
         assert!(outcome.expect(endpoint).is_ok());
     }
+}
+
+#[test]
+fn a_streamer_with_an_unknown_name_is_an_error_at_once() {
+    // A label may not be longer than 63 bytes, so no resolver asks the network for this one.
+    let host = "x".repeat(64);
+    let error = open(&format!("mxtp+tcp://{host}:9763?mode=connect")).unwrap_err();
+    assert!(matches!(error, Error::Resolve { host: found, .. } if found == host));
+}
+
+#[test]
+fn a_streamer_that_is_not_there_is_told_of_once() {
+    let place = deserted();
+    let receiver = Receiver::start(&format!("mxtp+tcp://{place}?mode=connect"));
+    // The first statistics come after a second, in which several attempts fail.
+    receiver.gatherer.wait_until(|gathered| gathered.statistics.is_some());
+    let notices = receiver.stop().notices;
+    let [notice @ Notice::NotConnected { error }] = notices.as_slice() else {
+        panic!("{notices:?}");
+    };
+    assert!(matches!(
+        error,
+        Error::Socket {
+            kind: ErrorKind::ConnectionRefused,
+            ..
+        }
+    ));
+    let told = notice.to_string();
+    assert!(told.starts_with(&format!("cannot connect to tcp {place}: ")));
+    assert!(told.ends_with("; trying again"));
+}
+
+#[test]
+fn a_streamer_that_hangs_up_is_called_less_and_less_often() {
+    let streamer = TcpListener::bind("127.0.0.1:0").unwrap();
+    let place = streamer.local_addr().unwrap();
+    let receiver = Receiver::start(&format!("mxtp+tcp://{place}?mode=connect"));
+    let begun = Instant::now();
+    for _ in 0..4 {
+        drop(streamer.accept().unwrap());
+    }
+    assert!(begun.elapsed() >= Duration::from_millis(100 + 200 + 400 - 50));
+    receiver.stop();
 }

@@ -9,10 +9,11 @@ use crate::net::{self, TcpIncoming};
 use crate::queue::{Consumer, Policy, Producer, bounded};
 use crate::session::Outlet;
 use crate::stop::Stop;
-use crate::{Notice, Result};
+use crate::{Error, Notice, Result};
 use posewire_motion::Stamp;
 use posewire_mxtp::Framer;
 use std::collections::BTreeMap;
+use std::net::SocketAddr;
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
@@ -27,14 +28,16 @@ pub(in crate::source) struct MxtpTcp {
 #[derive(Debug)]
 enum Way {
     Listen(TcpIncoming),
-    Connect(TcpAddress),
+    /// The addresses that the host had at the beginning. They are not asked for again: an answer can take longer than
+    /// an end may wait.
+    Connect(Vec<SocketAddr>),
 }
 
 impl MxtpTcp {
     pub(in crate::source) fn open(address: &TcpAddress) -> Result<Self> {
         let mut address = address.clone();
         let way = if address.mode == Some(TcpMode::Connect) {
-            Way::Connect(address.clone())
+            Way::Connect(net::resolve(&address.host, address.port)?)
         } else {
             let incoming = net::listen(&address)?;
             address.port = incoming.local_address().port();
@@ -47,7 +50,7 @@ impl MxtpTcp {
         Endpoint::MxtpTcp(self.address.clone())
     }
 
-    /// Runs until the stop, or until no sink is left.
+    /// Runs until the stop, or until no sink is left. A connection that fails is told of and tried again.
     pub(in crate::source) fn run(self, outlet: &mut Outlet, stop: &Stop) {
         let (news, arriving) = bounded(QUEUED_READS, Policy::Lossless);
         // Not the session's: that one may never be set, as when there are no sinks.
@@ -69,7 +72,7 @@ impl MxtpTcp {
 fn start_connecting(way: Way, news: Producer<News>, ending: Stop) -> JoinHandle<()> {
     thread::spawn(move || match way {
         Way::Listen(incoming) => accept_peers(&incoming, &news, &ending),
-        Way::Connect(address) => call_peer(&address, &news, &ending),
+        Way::Connect(addresses) => call_peer(&addresses, &news, &ending),
     })
 }
 
@@ -91,6 +94,8 @@ enum News {
         peer: String,
         reason: String,
     },
+    /// No connection came about, and it will be tried again.
+    NotConnected(Error),
 }
 
 /// The streams of all connections, being cut into datagrams.
@@ -153,6 +158,7 @@ impl<'a> Streams<'a> {
                 self.skipped_before += framer.skipped();
                 self.intake.notice(Notice::Disconnected { peer, reason });
             }
+            News::NotConnected(error) => self.intake.notice(Notice::NotConnected { error }),
         }
     }
 

@@ -1,13 +1,13 @@
 //! The threads that connect, and one for each connection that reads it.
 
 use super::News;
-use crate::Result;
 use crate::clock;
-use crate::endpoint::TcpAddress;
 use crate::net::{self, Backoff, TcpConnection, TcpIncoming};
 use crate::queue::Producer;
 use crate::source::mxtp::intake::{DRAIN_LIMIT, TICK};
 use crate::stop::Stop;
+use crate::{Error, Result};
+use std::net::SocketAddr;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -16,12 +16,14 @@ use std::time::{Duration, Instant};
 pub(super) fn accept_peers(incoming: &TcpIncoming, news: &Producer<News>, ending: &Stop) {
     let open = &AtomicUsize::new(0);
     thread::scope(|peers| {
+        let mut trouble = Trouble::new(news);
         for connection in 0.. {
             if news.is_closed() {
                 break;
             }
             match accept_within_limit(incoming, open, ending) {
                 Ok(Some(accepted)) => {
+                    trouble.is_over();
                     open.fetch_add(1, Ordering::Relaxed);
                     peers.spawn(move || {
                         read_from(accepted, connection, news, ending);
@@ -31,7 +33,7 @@ pub(super) fn accept_peers(incoming: &TcpIncoming, news: &Producer<News>, ending
                 Ok(None) if ending.is_stopped() => break,
                 Ok(None) => {}
                 Err(error) => {
-                    tracing::warn!(%error, "trying again");
+                    trouble.tell(error);
                     if ending.wait(ACCEPT_AGAIN) {
                         break;
                     }
@@ -51,19 +53,64 @@ fn accept_within_limit(incoming: &TcpIncoming, open: &AtomicUsize, ending: &Stop
 }
 
 /// Connects, and connects again whenever the connection is lost, until the end.
-pub(super) fn call_peer(address: &TcpAddress, news: &Producer<News>, ending: &Stop) {
+pub(super) fn call_peer(addresses: &[SocketAddr], news: &Producer<News>, ending: &Stop) {
+    let mut trouble = Trouble::new(news);
     let mut backoff = Backoff::default();
     for connection in 0.. {
-        match net::connect(address, CONNECT_TIMEOUT) {
-            Ok(connected) => {
-                backoff.reset();
+        match connect_to_any(addresses, ending) {
+            Ok(Some(connected)) => {
+                trouble.is_over();
+                let begun = Instant::now();
                 read_from(connected, connection, news, ending);
+                if begun.elapsed() >= STEADY {
+                    backoff.reset();
+                }
             }
-            Err(error) => tracing::debug!(%error, "not connected yet"),
+            Ok(None) => break,
+            Err(error) => trouble.tell(error),
         }
         if ending.wait(backoff.next_delay()) {
             break;
         }
+    }
+}
+
+/// The first connection that comes about; `None` at the end. The error is that of the last address.
+fn connect_to_any(addresses: &[SocketAddr], ending: &Stop) -> Result<Option<TcpConnection>> {
+    let mut failure = None;
+    for address in addresses {
+        if ending.is_stopped() {
+            return Ok(None);
+        }
+        match net::connect_to(*address, CONNECT_TIMEOUT) {
+            Ok(connected) => return Ok(Some(connected)),
+            Err(error) => failure = Some(error),
+        }
+    }
+    failure.map_or(Ok(None), Err)
+}
+
+/// Failures in a row, of which only the first is told.
+struct Trouble<'a> {
+    told: bool,
+    news: &'a Producer<News>,
+}
+
+impl<'a> Trouble<'a> {
+    fn new(news: &'a Producer<News>) -> Self {
+        Self { told: false, news }
+    }
+
+    fn tell(&mut self, error: Error) {
+        tracing::debug!(%error, "not connected yet");
+        if !std::mem::replace(&mut self.told, true) {
+            // When the queue is closed nobody is left to be told.
+            let _ = self.news.push(News::NotConnected(error));
+        }
+    }
+
+    fn is_over(&mut self) {
+        self.told = false;
     }
 }
 
@@ -125,5 +172,7 @@ const READ_SIZE: usize = 64 * 1024;
 const MAX_CONNECTIONS: usize = 16;
 /// An attempt cannot be cut short, so the end of the source may have to wait for one.
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(1);
+/// A connection that lasted so long was one; a peer that hangs up at once is called less and less often.
+const STEADY: Duration = Duration::from_secs(1);
 /// What keeps the system from accepting, as too many open files, may pass.
 const ACCEPT_AGAIN: Duration = Duration::from_secs(1);
