@@ -1,6 +1,6 @@
 //! Measures the engine beside the barest loops that do the same.
 //!
-//! Run with `cargo bench -p posewire --bench net`; it takes a minute and a half. `-- drain`, `-- live` and `-- pace` at the
+//! Run with `cargo bench -p posewire --bench net`; it takes a minute. `-- drain`, `-- live` and `-- pace` at the
 //! end run one part. What is compared is measured in turns within one run, so that whatever else the machine does meets
 //! both.
 
