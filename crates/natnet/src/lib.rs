@@ -38,6 +38,7 @@ pub mod frame;
 pub mod model;
 
 mod error;
+mod explain;
 mod message;
 mod name;
 mod packet;
@@ -48,6 +49,7 @@ mod version;
 mod writer;
 
 pub use error::Error;
+pub use explain::{Explanation, Field, Value, explain};
 pub use message::Message;
 pub use name::Name;
 pub use packet::{MessageId, Packet};

@@ -48,9 +48,10 @@ impl ServerInfo {
         let mut reader = Reader::new("server info", payload);
         let server = Sender::read(&mut reader)?;
         reader.enter("server info");
-        let connection = match reader.left() >= 15 {
-            true => Some(read_connection(&mut reader)?),
-            false => None,
+        let connection = if reader.left() >= 15 {
+            Some(read_connection(&mut reader)?)
+        } else {
+            None
         };
         let mut quirks = Quirks::NONE;
         let expected = server.natnet_version.has_connection_info();
@@ -93,9 +94,10 @@ impl fmt::Display for ServerInfo {
 
 impl fmt::Display for ConnectionInfo {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.is_multicast {
-            true => write!(f, "multicast {}:{}", self.group, self.data_port)?,
-            false => write!(f, "unicast from port {}", self.data_port)?,
+        if self.is_multicast {
+            write!(f, "multicast {}:{}", self.group, self.data_port)?;
+        } else {
+            write!(f, "unicast from port {}", self.data_port)?;
         }
         write!(f, ", clock {} Hz", self.clock_frequency)
     }

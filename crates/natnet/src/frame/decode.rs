@@ -55,7 +55,7 @@ impl Frame {
         self.read_bodies(version, &mut reader, quirks)?;
         self.read_devices(version, &mut reader, quirks)?;
         self.read_later(version, &mut reader, quirks)?;
-        self.read_suffix(version, &mut reader, quirks)?;
+        self.read_suffix(version, &mut reader, *quirks)?;
         end_of_frame(&mut reader)?;
         reader.finish()
     }
@@ -152,7 +152,7 @@ impl Frame {
         Ok(())
     }
 
-    fn read_suffix(&mut self, version: Version, reader: &mut Reader<'_>, quirks: &Quirks) -> Result<(), Error> {
+    fn read_suffix(&mut self, version: Version, reader: &mut Reader<'_>, quirks: Quirks) -> Result<(), Error> {
         reader.enter(section::SUFFIX);
         // Without sizes, only the length of the suffix tells whether it has the precision time.
         let precise = version.has_precision_time()

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::Frame;
+use super::{Frame, RigidBody};
 
 impl fmt::Display for Frame {
     /// `frame 162734: 1 of 1 bodies tracked, 6 labeled markers, time 1356.117s`. Empty sections are
@@ -22,17 +22,17 @@ impl fmt::Display for Frame {
             self.time(),
         ];
         let parts: Vec<_> = parts.into_iter().filter(|part| !part.is_empty()).collect();
-        match parts.is_empty() {
-            true => f.write_str(" empty"),
-            false => write!(f, " {}", parts.join(", ")),
+        if parts.is_empty() {
+            return f.write_str(" empty");
         }
+        write!(f, " {}", parts.join(", "))
     }
 }
 
 impl Frame {
     fn bodies(&self) -> String {
         let all = self.rigid_bodies.len();
-        let told = self.rigid_bodies.iter().filter_map(|body| body.is_tracked());
+        let told = self.rigid_bodies.iter().filter_map(RigidBody::is_tracked);
         match told.clone().count() {
             0 => count(all, "rigid body").replace("bodys", "bodies"),
             _ => format!("{} of {all} bodies tracked", told.filter(|tracked| *tracked).count()),

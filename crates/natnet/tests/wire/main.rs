@@ -1,0 +1,3 @@
+//! Packets of every kind and version, to and from bytes.
+
+mod reference;
