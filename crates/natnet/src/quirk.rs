@@ -17,8 +17,10 @@ pub enum Quirk {
     DraftLayout,
     /// A section or description states more bytes than what is known of it; the rest was skipped.
     SectionLeftover,
-    /// Sections after the devices that this version does not have.
+    /// Sections after the devices, or descriptions of a type, that this version does not have.
     ExtraSections,
+    /// No sections after the devices, or too few, in a version that has them.
+    MissingSections,
     /// A text message is not UTF-8.
     TextNotUtf8,
     /// A text message has no terminating zero.
@@ -31,12 +33,13 @@ pub enum Quirk {
 
 impl Quirk {
     /// Every quirk, in the order of their bits.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::PayloadSize,
         Self::UnsizedSections,
         Self::DraftLayout,
         Self::SectionLeftover,
         Self::ExtraSections,
+        Self::MissingSections,
         Self::TextNotUtf8,
         Self::TextUnended,
         Self::UnexpectedPayload,
@@ -51,6 +54,7 @@ impl Quirk {
             Self::DraftLayout => "draft-layout",
             Self::SectionLeftover => "section-leftover",
             Self::ExtraSections => "extra-sections",
+            Self::MissingSections => "missing-sections",
             Self::TextNotUtf8 => "text-not-utf8",
             Self::TextUnended => "text-unended",
             Self::UnexpectedPayload => "unexpected-payload",
@@ -65,7 +69,8 @@ impl Quirk {
             Self::UnsizedSections => "a server of 4.1 or later sends sections and descriptions without sizes",
             Self::DraftLayout => "laid out as the draft of 1.4 has it",
             Self::SectionLeftover => "a section or description is larger than what is known of it",
-            Self::ExtraSections => "sections that this version does not have",
+            Self::ExtraSections => "sections or descriptions that this version does not have",
+            Self::MissingSections => "sections that this version has are missing",
             Self::TextNotUtf8 => "a string is not UTF-8",
             Self::TextUnended => "a text message has no terminating zero",
             Self::UnexpectedPayload => "bytes in a message that carries none, or more than it carries",

@@ -35,7 +35,7 @@ pub(super) fn draft(walk: &mut Walk<'_>, version: Version) -> Option<()> {
         walk.enter(section::MARKER_SETS);
         marker_set(walk, name)?;
         walk.enter(section::OTHER_MARKERS);
-        walk.list(&format!("{name}.other_markers"), |walk, name| walk.position(name))?;
+        walk.list(&format!("{name}.other_markers"), Walk::position)?;
         walk.enter(section::RIGID_BODIES);
         walk.list(&format!("{name}.rigid_bodies"), |walk, name| {
             rigid_body(walk, name, version)
@@ -54,9 +54,9 @@ pub(super) fn marker_params(walk: &mut Walk<'_>, name: String) -> Option<()> {
 
 fn bodies(walk: &mut Walk<'_>, version: Version) -> Option<()> {
     walk.enter(section::MARKER_SETS);
-    list(walk, version, "marker_sets", |walk, name| marker_set(walk, name))?;
+    list(walk, version, "marker_sets", marker_set)?;
     walk.enter(section::OTHER_MARKERS);
-    list(walk, version, "other_markers", |walk, name| walk.position(name))?;
+    list(walk, version, "other_markers", Walk::position)?;
     walk.enter(section::RIGID_BODIES);
     list(walk, version, "rigid_bodies", |walk, name| {
         rigid_body(walk, name, version)
@@ -92,11 +92,11 @@ fn devices(walk: &mut Walk<'_>, version: Version) -> Option<()> {
     }
     if version.has_force_plates() {
         walk.enter(section::FORCE_PLATES);
-        list(walk, version, "force_plates", |walk, name| analog_device(walk, name))?;
+        list(walk, version, "force_plates", analog_device)?;
     }
     if version.has_devices() {
         walk.enter(section::DEVICES);
-        list(walk, version, "devices", |walk, name| analog_device(walk, name))?;
+        list(walk, version, "devices", analog_device)?;
     }
     Some(())
 }
@@ -167,11 +167,11 @@ fn timestamp(walk: &mut Walk<'_>, version: Version) -> Option<()> {
 }
 
 /// A section: a list that states its size since 4.1.
-fn list(
-    walk: &mut Walk<'_>,
+fn list<'a>(
+    walk: &mut Walk<'a>,
     version: Version,
     name: &str,
-    mut item: impl FnMut(&mut Walk<'_>, &str) -> Option<()>,
+    mut item: impl FnMut(&mut Walk<'a>, &str) -> Option<()>,
 ) -> Option<()> {
     if !version.has_sized_sections() {
         return walk.list(name, item);
@@ -186,7 +186,7 @@ fn list(
 
 fn marker_set(walk: &mut Walk<'_>, name: &str) -> Option<()> {
     walk.name(format!("{name}.name"))?;
-    walk.list(&format!("{name}.markers"), |walk, name| walk.position(name))
+    walk.list(&format!("{name}.markers"), Walk::position)
 }
 
 fn rigid_body(walk: &mut Walk<'_>, name: &str, version: Version) -> Option<()> {

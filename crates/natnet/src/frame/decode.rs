@@ -147,6 +147,7 @@ impl Frame {
                 count += 1;
             }
             quirks.insert_if(count > version.later_sections(), Quirk::ExtraSections);
+            quirks.insert_if(count < version.later_sections(), Quirk::MissingSections);
         }
         self.later_sections.truncate(count);
         Ok(())

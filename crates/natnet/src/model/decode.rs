@@ -60,7 +60,9 @@ fn read_one(version: Version, reader: &mut Reader<'_>, quirks: &mut Quirks) -> R
     reader.enter(section::of(kind));
     let unknown = Error::DescriptionType { found: kind, offset };
     if !version.has_sized_sections() {
-        return read_known(kind, version, reader)?.ok_or(unknown);
+        let description = read_known(kind, version, reader)?.ok_or(unknown)?;
+        quirks.insert_if(!description.is_in(version), Quirk::ExtraSections);
+        return Ok(description);
     }
     let mut part = reader.sized_part(0)?;
     if let Some(description) = read_known(kind, version, &mut part)? {

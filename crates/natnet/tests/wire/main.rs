@@ -1,3 +1,10 @@
 //! Packets of every kind and version, to and from bytes.
 
+mod bounds;
+mod json;
+mod properties;
+mod quirks;
 mod reference;
+mod samples;
+mod strategies;
+mod vectors;
