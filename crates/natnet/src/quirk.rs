@@ -17,6 +17,8 @@ pub enum Quirk {
     DraftLayout,
     /// A section or description states more bytes than what is known of it; the rest was skipped.
     SectionLeftover,
+    /// A description is not laid out as its version says; it was kept as bytes.
+    UnreadableDescription,
     /// Sections after the devices, or descriptions of a type, that this version does not have.
     ExtraSections,
     /// No sections after the devices, or too few, in a version that has them.
@@ -33,11 +35,12 @@ pub enum Quirk {
 
 impl Quirk {
     /// Every quirk, in the order of their bits.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::PayloadSize,
         Self::UnsizedSections,
         Self::DraftLayout,
         Self::SectionLeftover,
+        Self::UnreadableDescription,
         Self::ExtraSections,
         Self::MissingSections,
         Self::TextNotUtf8,
@@ -53,6 +56,7 @@ impl Quirk {
             Self::UnsizedSections => "unsized-sections",
             Self::DraftLayout => "draft-layout",
             Self::SectionLeftover => "section-leftover",
+            Self::UnreadableDescription => "unreadable-description",
             Self::ExtraSections => "extra-sections",
             Self::MissingSections => "missing-sections",
             Self::TextNotUtf8 => "text-not-utf8",
@@ -69,6 +73,7 @@ impl Quirk {
             Self::UnsizedSections => "a server of 4.1 or later sends sections and descriptions without sizes",
             Self::DraftLayout => "laid out as the draft of 1.4 has it",
             Self::SectionLeftover => "a section or description is larger than what is known of it",
+            Self::UnreadableDescription => "a description is not laid out as its version says",
             Self::ExtraSections => "sections or descriptions that this version does not have",
             Self::MissingSections => "sections that this version has are missing",
             Self::TextNotUtf8 => "a string is not UTF-8",

@@ -6,7 +6,7 @@ use crate::Error;
 ///
 /// It knows the section that it is in and where its bytes stand in the packet, so that every error
 /// says both.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(crate) struct Reader<'a> {
     left: &'a [u8],
     end: usize,
@@ -179,7 +179,11 @@ impl<'a> Reader<'a> {
     fn part(&mut self, length: usize) -> Result<Reader<'a>, Error> {
         let end = self.offset() + length;
         let left = self.bytes(length)?;
-        Ok(Reader { left, end, ..*self })
+        Ok(Reader {
+            left,
+            end,
+            section: self.section,
+        })
     }
 
     #[cold]

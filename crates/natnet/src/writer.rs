@@ -46,8 +46,9 @@ impl<'a> Writer<'a> {
         self.bytes(&value.to_le_bytes());
     }
 
-    pub(crate) fn floats(&mut self, values: &[f32]) {
-        self.out.extend(values.iter().flat_map(|value| value.to_le_bytes()));
+    /// Three or four numbers, or any other fixed count.
+    pub(crate) fn floats<const N: usize>(&mut self, values: &[f32; N]) {
+        self.bytes(values.map(f32::to_le_bytes).as_flattened());
     }
 
     /// The bytes of a string and the zero that ends it.

@@ -107,6 +107,8 @@ struct Layout {
     /// The suffix may have the precision time although the version has none.
     unsized_later: bool,
     draft: bool,
+    /// Descriptions that cannot be read were kept as bytes.
+    tolerant: bool,
 }
 
 impl Layout {
@@ -116,6 +118,7 @@ impl Layout {
             version: if unsized_later { Version::new(4, 0) } else { version },
             unsized_later,
             draft: quirks.contains(Quirk::DraftLayout),
+            tolerant: quirks.contains(Quirk::UnreadableDescription),
         }
     }
 }
@@ -161,5 +164,53 @@ impl fmt::Display for Explanation {
             Some(error) => writeln!(f, "error  {error}"),
             None => Ok(()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::{BodyParams, Frame, FrameParams, LabeledMarker, MarkerParams, RigidBody, Timecode};
+
+    fn notes(frame: Frame) -> Vec<(String, String)> {
+        let mut bytes = Vec::new();
+        Message::Frame(frame.into())
+            .encode(Version::new(3, 1), &mut bytes)
+            .unwrap();
+        let fields = explain(Version::new(3, 1), &bytes).fields.into_iter();
+        fields
+            .filter_map(|field| Some((field.name, field.note?.into_owned())))
+            .collect()
+    }
+
+    #[test]
+    fn ids_bits_and_timecodes_are_put_into_words() {
+        let bits = MarkerParams(MarkerParams::OCCLUDED.0 | MarkerParams::ACTIVE.0);
+        let frame = Frame {
+            rigid_bodies: vec![RigidBody {
+                id: (4 << 16) | 1,
+                params: Some(BodyParams::TRACKED),
+                ..RigidBody::default()
+            }],
+            labeled_markers: vec![LabeledMarker {
+                id: (2 << 16) | 5,
+                params: Some(bits),
+                ..LabeledMarker::default()
+            }],
+            timecode: Some(Timecode::new(1, 2, 3, 4, 0)),
+            params: Some(FrameParams::MODEL_CHANGED),
+            ..Frame::default()
+        };
+        let expected = [
+            ("message", "FRAMEOFDATA"),
+            ("rigid_bodies[0].id", "bone 1 of skeleton 4"),
+            ("rigid_bodies[0].params", "tracked"),
+            ("labeled_markers[0].id", "member 5 of asset 2"),
+            ("labeled_markers[0].params", "occluded, active"),
+            ("timecode", "01:02:03:04.0"),
+            ("params", "model changed"),
+        ];
+        let expected = expected.map(|(name, note)| (name.to_owned(), note.to_owned()));
+        assert_eq!(notes(frame), expected);
     }
 }

@@ -22,7 +22,10 @@ pub(super) fn model(walk: &mut Walk<'_>, layout: &Layout) -> Option<()> {
         }
         let size = walk.i32(format!("{name}.size"))?;
         walk.unit("bytes");
-        walk.within(size.try_into().ok()?, |walk| description(walk, kind, name, version))
+        walk.within(size.try_into().ok()?, |walk| {
+            let complete = description(walk, kind, name, version);
+            complete.or(layout.tolerant.then_some(()))
+        })
     })
 }
 

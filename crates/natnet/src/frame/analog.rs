@@ -59,6 +59,8 @@ impl Record for Channel {
 
     fn write(&self, writer: &mut Writer<'_>, _: Version) {
         writer.count(self.samples.len());
-        writer.floats(&self.samples);
+        for sample in &self.samples {
+            writer.f32(*sample);
+        }
     }
 }

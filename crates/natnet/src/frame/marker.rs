@@ -100,9 +100,9 @@ impl Record for LabeledMarker {
     }
 
     fn write(&self, writer: &mut Writer<'_>, version: Version) {
+        let [x, y, z] = self.position;
         writer.i32(self.id);
-        writer.floats(&self.position);
-        writer.f32(self.size);
+        writer.floats(&[x, y, z, self.size]);
         if version.has_params() {
             writer.i16(self.params.unwrap_or_default().0);
         }

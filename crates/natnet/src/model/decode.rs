@@ -13,14 +13,15 @@ impl Model {
     ///
     /// Two other layouts are tried where the one of the version fails, and accepted when every byte
     /// has its place in them: the one without sizes in 4.1 and later, and the draft without types in
-    /// 1.x.
+    /// 1.x. When that fails too, descriptions of 4.1 and later that cannot be read are kept as
+    /// [`Description::Unknown`], so that one of them does not cost the names of all others.
     ///
     /// # Errors
     /// A payload that is cut short, counts what it cannot hold, does not end where it should, or has
     /// a description of an unknown type without a size.
     pub fn decode(version: Version, payload: &[u8]) -> Result<(Self, Quirks), Error> {
         let mut quirks = Quirks::NONE;
-        match read(version, payload, &mut quirks) {
+        match read(version, payload, Faults::Fail, &mut quirks) {
             Ok(descriptions) => Ok((Self { descriptions }, quirks)),
             Err(error) => read_otherwise(version, payload).ok_or(error),
         }
@@ -29,9 +30,7 @@ impl Model {
 
 fn read_otherwise(version: Version, payload: &[u8]) -> Option<(Model, Quirks)> {
     if version.has_sized_sections() {
-        let mut quirks = Quirk::UnsizedSections.into();
-        let descriptions = read(UNSIZED, payload, &mut quirks).ok()?;
-        return Some((Model { descriptions }, quirks));
+        return read_unsized(payload).or_else(|| read_tolerant(version, payload));
     }
     if version.has_draft() {
         let descriptions = read_draft(version, payload).ok()?;
@@ -40,36 +39,74 @@ fn read_otherwise(version: Version, payload: &[u8]) -> Option<(Model, Quirks)> {
     None
 }
 
-fn read(version: Version, payload: &[u8], quirks: &mut Quirks) -> Result<Vec<Description>, Error> {
+fn read_unsized(payload: &[u8]) -> Option<(Model, Quirks)> {
+    let mut quirks = Quirk::UnsizedSections.into();
+    let descriptions = read(UNSIZED, payload, Faults::Fail, &mut quirks).ok()?;
+    Some((Model { descriptions }, quirks))
+}
+
+fn read_tolerant(version: Version, payload: &[u8]) -> Option<(Model, Quirks)> {
+    let mut quirks = Quirks::NONE;
+    let descriptions = read(version, payload, Faults::Keep, &mut quirks).ok()?;
+    Some((Model { descriptions }, quirks))
+}
+
+/// What becomes of a description with a size whose body cannot be read.
+#[derive(Clone, Copy, PartialEq)]
+enum Faults {
+    Fail,
+    Keep,
+}
+
+fn read(version: Version, payload: &[u8], faults: Faults, quirks: &mut Quirks) -> Result<Vec<Description>, Error> {
     let mut reader = Reader::new(section::PREFIX, payload);
     // The shortest: a type and, since 4.1, a size; a name and a count before.
     let count = reader.count(if version.has_sized_sections() { 8 } else { 9 })?;
     let mut descriptions = Vec::with_capacity(count);
     for _ in 0..count {
-        descriptions.push(read_one(version, &mut reader, quirks)?);
+        reader.enter(section::PREFIX);
+        let description = if version.has_sized_sections() {
+            read_sized(version, &mut reader, faults, quirks)?
+        } else {
+            read_unsized_one(version, &mut reader, quirks)?
+        };
+        descriptions.push(description);
     }
     reader.enter(section::PREFIX);
     reader.finish()?;
     Ok(descriptions)
 }
 
-fn read_one(version: Version, reader: &mut Reader<'_>, quirks: &mut Quirks) -> Result<Description, Error> {
-    reader.enter(section::PREFIX);
+fn read_unsized_one(version: Version, reader: &mut Reader<'_>, quirks: &mut Quirks) -> Result<Description, Error> {
     let offset = reader.offset();
     let kind = reader.i32()?;
     reader.enter(section::of(kind));
     let unknown = Error::DescriptionType { found: kind, offset };
-    if !version.has_sized_sections() {
-        let description = read_known(kind, version, reader)?.ok_or(unknown)?;
-        quirks.insert_if(!description.is_in(version), Quirk::ExtraSections);
-        return Ok(description);
-    }
+    let description = read_known(kind, version, reader)?.ok_or(unknown)?;
+    quirks.insert_if(!description.is_in(version), Quirk::ExtraSections);
+    Ok(description)
+}
+
+fn read_sized(
+    version: Version,
+    reader: &mut Reader<'_>,
+    faults: Faults,
+    quirks: &mut Quirks,
+) -> Result<Description, Error> {
+    let kind = reader.i32()?;
+    reader.enter(section::of(kind));
     let mut part = reader.sized_part(0)?;
-    if let Some(description) = read_known(kind, version, &mut part)? {
-        quirks.insert_if(part.left() > 0, Quirk::SectionLeftover);
-        return Ok(description);
+    let bytes = part.clone().rest();
+    match read_known(kind, version, &mut part) {
+        Ok(Some(description)) => {
+            quirks.insert_if(part.left() > 0, Quirk::SectionLeftover);
+            return Ok(description);
+        }
+        Ok(None) => {}
+        Err(error) if faults == Faults::Fail => return Err(error),
+        Err(_) => quirks.insert(Quirk::UnreadableDescription),
     }
-    let bytes = part.rest().to_vec();
+    let bytes = bytes.to_vec();
     Ok(Description::Unknown { kind, bytes })
 }
 

@@ -71,8 +71,12 @@ impl Record for ForcePlate {
         writer.f32(self.width);
         writer.f32(self.length);
         writer.floats(&self.origin);
-        writer.floats(self.calibration.as_flattened());
-        writer.floats(self.corners.as_flattened());
+        for row in self.calibration.iter() {
+            writer.floats(row);
+        }
+        for corner in &self.corners {
+            writer.floats(corner);
+        }
         writer.i32(self.kind);
         writer.i32(self.channel_data);
         write_list(&self.channels, writer, version);

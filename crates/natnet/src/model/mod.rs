@@ -57,7 +57,7 @@ pub enum Description {
     Camera(Camera),
     /// Type 6 (4.1 and later).
     Asset(AssetDescription),
-    /// A type that is not known, as it came (4.1 and later).
+    /// A type that is not known, or a body that cannot be read, as it came (4.1 and later).
     Unknown {
         /// The number of the type.
         kind: i32,

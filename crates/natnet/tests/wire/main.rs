@@ -2,6 +2,7 @@
 
 mod bounds;
 mod json;
+mod lines;
 mod properties;
 mod quirks;
 mod reference;

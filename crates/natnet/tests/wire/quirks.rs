@@ -96,6 +96,20 @@ fn a_larger_description_than_known_is_read_as_far_as_it_is_known() {
 }
 
 #[test]
+fn a_description_that_cannot_be_read_does_not_cost_the_others() {
+    let (Message::Model(model), quirks) = decoded("quirk_unreadable_description") else {
+        panic!("no model");
+    };
+    assert!(quirks.contains(Quirk::UnreadableDescription));
+    let sent = samples::model().descriptions;
+    assert_eq!(model.descriptions.len(), sent.len());
+    assert!(matches!(model.descriptions[2], Description::Unknown { kind: 2, .. }));
+    for n in [0, 3, 4, 5, 7] {
+        assert_eq!(model.descriptions[n], sent[n]);
+    }
+}
+
+#[test]
 fn unknown_descriptions_are_kept_and_sent_on() {
     let (Message::Model(model), _) = decoded("model_4_1") else {
         panic!("no model");

@@ -204,6 +204,9 @@ fn unusual() -> Vec<Sample> {
             known_model().encode(v4_0, out);
         }),
         leftover(v4_1),
+        Sample::payload("quirk_unreadable_description", v4_1, MessageId::MODEL, |out| {
+            model().encode(Version::new(4, 2), out);
+        }),
         Sample::raw("quirk_keep_alive", v4_1, b"\x0a\0\0\0\0".to_vec()),
         Sample::payload("quirk_keep_alive_stated", v4_1, MessageId::KEEP_ALIVE, |out| {
             out.push(0);
