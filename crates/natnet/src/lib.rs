@@ -39,6 +39,7 @@ pub mod model;
 
 mod error;
 mod explain;
+mod line;
 mod message;
 mod name;
 mod packet;

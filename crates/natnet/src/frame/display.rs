@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::{Frame, RigidBody};
+use crate::line::count;
 
 impl fmt::Display for Frame {
     /// `frame 162734: 1 of 1 bodies tracked, 6 labeled markers, time 1356.117s`. Empty sections are
@@ -34,7 +35,7 @@ impl Frame {
         let all = self.rigid_bodies.len();
         let told = self.rigid_bodies.iter().filter_map(RigidBody::is_tracked);
         match told.clone().count() {
-            0 => count(all, "rigid body").replace("bodys", "bodies"),
+            0 => count(all, "rigid body"),
             _ => format!("{} of {all} bodies tracked", told.filter(|tracked| *tracked).count()),
         }
     }
@@ -45,13 +46,5 @@ impl Frame {
         let timestamp = self.timestamp.map(|seconds| format!("time {seconds:.3}s"));
         let times: Vec<_> = timestamp.into_iter().chain(timecode).collect();
         times.join(", ")
-    }
-}
-
-fn count(count: usize, what: &str) -> String {
-    match count {
-        0 => String::new(),
-        1 => format!("1 {what}"),
-        _ => format!("{count} {what}s"),
     }
 }

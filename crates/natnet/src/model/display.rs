@@ -3,15 +3,15 @@
 use std::fmt;
 
 use super::{Description, Model};
+use crate::line::count;
 
 impl fmt::Display for Model {
     /// `3 descriptions: rigid body 2 "drone" (5 markers), marker set "all" (5 markers), ...`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.descriptions.len() {
-            0 => f.write_str("no descriptions")?,
-            1 => f.write_str("1 description: ")?,
-            count => write!(f, "{count} descriptions: ")?,
+        if self.descriptions.is_empty() {
+            return f.write_str("no descriptions");
         }
+        write!(f, "{}: ", count(self.descriptions.len(), "description"))?;
         for (n, description) in self.descriptions.iter().enumerate() {
             let separator = if n == 0 { "" } else { ", " };
             write!(f, "{separator}{description}")?;
@@ -21,40 +21,36 @@ impl fmt::Display for Model {
 }
 
 impl fmt::Display for Description {
-    /// `rigid body 2 "drone" (5 markers)`.
+    /// `rigid body 2 "drone" (5 markers)`. Empty lists are left out.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::MarkerSet(set) => write!(f, "marker set {:?} ({} markers)", set.name, set.markers.len()),
-            Self::RigidBody(body) => {
-                write!(
-                    f,
-                    "rigid body {} {:?} ({} markers)",
-                    body.id,
-                    body.name,
-                    body.markers.len()
-                )
-            }
-            Self::Skeleton(one) => write!(f, "skeleton {} {:?} ({} bones)", one.id, one.name, one.bones.len()),
-            Self::ForcePlate(one) => {
-                write!(
-                    f,
-                    "force plate {} {:?} ({} channels)",
-                    one.id,
-                    one.serial,
-                    one.channels.len()
-                )
-            }
-            Self::Device(one) => write!(f, "device {} {:?} ({} channels)", one.id, one.name, one.channels.len()),
-            Self::Camera(one) => write!(f, "camera {:?}", one.name),
-            Self::Asset(one) => write!(
-                f,
-                "asset {} {:?} ({} bodies, {} markers)",
-                one.id,
-                one.name,
-                one.rigid_bodies.len(),
-                one.markers.len()
-            ),
-            Self::Unknown { kind, bytes } => write!(f, "type {kind} ({} bytes)", bytes.len()),
+            Self::MarkerSet(set) => write!(f, "marker set {:?}", set.name)?,
+            Self::RigidBody(body) => write!(f, "rigid body {} {:?}", body.id, body.name)?,
+            Self::Skeleton(skeleton) => write!(f, "skeleton {} {:?}", skeleton.id, skeleton.name)?,
+            Self::ForcePlate(plate) => write!(f, "force plate {} {:?}", plate.id, plate.serial)?,
+            Self::Device(device) => write!(f, "device {} {:?}", device.id, device.name)?,
+            Self::Camera(camera) => write!(f, "camera {:?}", camera.name)?,
+            Self::Asset(asset) => write!(f, "asset {} {:?}", asset.id, asset.name)?,
+            Self::Unknown { kind, .. } => write!(f, "type {kind}")?,
+        }
+        match self.contents() {
+            contents if contents.is_empty() => Ok(()),
+            contents => write!(f, " ({contents})"),
+        }
+    }
+}
+
+impl Description {
+    fn contents(&self) -> String {
+        match self {
+            Self::MarkerSet(set) => count(set.markers.len(), "marker"),
+            Self::RigidBody(body) => count(body.markers.len(), "marker"),
+            Self::Skeleton(skeleton) => count(skeleton.bones.len(), "bone"),
+            Self::ForcePlate(plate) => count(plate.channels.len(), "channel"),
+            Self::Device(device) => count(device.channels.len(), "channel"),
+            Self::Camera(_) => String::new(),
+            Self::Asset(asset) => count(asset.markers.len(), "marker"),
+            Self::Unknown { bytes, .. } => count(bytes.len(), "byte"),
         }
     }
 }

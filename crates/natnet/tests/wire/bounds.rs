@@ -93,6 +93,22 @@ fn a_count_beyond_the_bytes_is_refused_before_anything_is_allocated() {
 }
 
 #[test]
+fn no_datagram_takes_more_than_two_megabytes() {
+    let mut payload = vec![0; Packet::MAX_PAYLOAD];
+    payload[0] = 1;
+    let space = Packet::MAX_PAYLOAD - 13;
+    payload[9..13].copy_from_slice(&(space as i32).to_le_bytes());
+    let mut decoded = None;
+    let counts = allocation_counter::measure(|| decoded = Some(Model::decode(V3_1, &payload)));
+    let (model, _) = decoded.unwrap().unwrap();
+    let [Description::MarkerSet(set)] = &model.descriptions[..] else {
+        panic!("{model}");
+    };
+    assert_eq!(set.markers.len(), space);
+    assert!(counts.bytes_max < 2_000_000, "{} bytes", counts.bytes_max);
+}
+
+#[test]
 fn a_frame_that_does_not_end_where_it_should_says_where() {
     let mut payload = Vec::new();
     Frame::default().encode(V3_1, &mut payload);

@@ -35,8 +35,8 @@ fn a_frame_prints_what_is_in_it() {
 fn descriptions_print_what_they_describe() {
     assert_eq!(
         line("model_2_11"),
-        "NatNet MODELDEF 5 descriptions: marker set \"Ada\" (2 markers), rigid body 1 \"Wand\" (0 markers), \
-         skeleton 4 \"Zo\\xeb\" (2 bones), force plate 7 \"AMTI-1\" (2 channels), device 8 \"DAQ\" (1 channels)"
+        "NatNet MODELDEF 5 descriptions: marker set \"Ada\" (2 markers), rigid body 1 \"Wand\", \
+         skeleton 4 \"Zo\\xeb\" (2 bones), force plate 7 \"AMTI-1\" (2 channels), device 8 \"DAQ\" (1 channel)"
     );
 }
 
