@@ -23,6 +23,8 @@ pub enum Quirk {
     ExtraSections,
     /// No sections after the devices, or too few, in a version that has them.
     MissingSections,
+    /// A frame with a precision time in a version that has none.
+    ExtraPrecisionTime,
     /// A text message is not UTF-8.
     TextNotUtf8,
     /// A text message has no terminating zero.
@@ -35,7 +37,7 @@ pub enum Quirk {
 
 impl Quirk {
     /// Every quirk, in the order of their bits.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::PayloadSize,
         Self::UnsizedSections,
         Self::DraftLayout,
@@ -43,6 +45,7 @@ impl Quirk {
         Self::UnreadableDescription,
         Self::ExtraSections,
         Self::MissingSections,
+        Self::ExtraPrecisionTime,
         Self::TextNotUtf8,
         Self::TextUnended,
         Self::UnexpectedPayload,
@@ -59,6 +62,7 @@ impl Quirk {
             Self::UnreadableDescription => "unreadable-description",
             Self::ExtraSections => "extra-sections",
             Self::MissingSections => "missing-sections",
+            Self::ExtraPrecisionTime => "extra-precision-time",
             Self::TextNotUtf8 => "text-not-utf8",
             Self::TextUnended => "text-unended",
             Self::UnexpectedPayload => "unexpected-payload",
@@ -76,6 +80,7 @@ impl Quirk {
             Self::UnreadableDescription => "a description is not laid out as its version says",
             Self::ExtraSections => "sections or descriptions that this version does not have",
             Self::MissingSections => "sections that this version has are missing",
+            Self::ExtraPrecisionTime => "a precision time in a version that has none",
             Self::TextNotUtf8 => "a string is not UTF-8",
             Self::TextUnended => "a text message has no terminating zero",
             Self::UnexpectedPayload => "bytes in a message that carries none, or more than it carries",

@@ -1,6 +1,5 @@
 //! Which fields a frame has.
 
-use super::Layout;
 use super::walk::Walk;
 use crate::Version;
 use crate::frame::{Timecode, section};
@@ -17,14 +16,13 @@ const MARKER_BITS: [&str; 8] = [
 ];
 const FRAME_BITS: [&str; 4] = ["recording", "model changed", "edit mode", "bitstream changed"];
 
-pub(super) fn frame(walk: &mut Walk<'_>, layout: &Layout) -> Option<()> {
-    let version = layout.version;
+pub(super) fn frame(walk: &mut Walk<'_>, version: Version) -> Option<()> {
     walk.enter(section::PREFIX);
     walk.i32("frame_number")?;
     bodies(walk, version)?;
     devices(walk, version)?;
     later(walk, version)?;
-    suffix(walk, layout)
+    suffix(walk, version)
 }
 
 /// The draft of the 1.4 document: all of it in every model.
@@ -127,10 +125,9 @@ fn later(walk: &mut Walk<'_>, version: Version) -> Option<()> {
     Some(())
 }
 
-fn suffix(walk: &mut Walk<'_>, layout: &Layout) -> Option<()> {
-    let version = layout.version;
+fn suffix(walk: &mut Walk<'_>, version: Version) -> Option<()> {
     walk.enter(section::SUFFIX);
-    let precise = version.has_precision_time() || (layout.unsized_later && walk.left().len() == section::SUFFIX_SIZE);
+    let precise = section::has_precision_time(version, walk.left().len());
     if version.has_latency() {
         walk.f32("latency", "")?;
         walk.note("a number of the server's choice");

@@ -95,7 +95,7 @@ fn packet(walk: &mut Walk<'_>, version: Version, quirks: Quirks) -> Option<()> {
     let layout = Layout::new(version, quirks);
     walk.within(size.min(found), |walk| match id {
         MessageId::FRAME if layout.draft => frame::draft(walk, layout.version),
-        MessageId::FRAME => frame::frame(walk, &layout),
+        MessageId::FRAME => frame::frame(walk, layout.version),
         MessageId::MODEL => model::model(walk, &layout),
         id => command::command(walk, id),
     })
@@ -104,8 +104,6 @@ fn packet(walk: &mut Walk<'_>, version: Version, quirks: Quirks) -> Option<()> {
 /// How the frames and descriptions turned out to be laid out.
 struct Layout {
     version: Version,
-    /// The suffix may have the precision time although the version has none.
-    unsized_later: bool,
     draft: bool,
     /// Descriptions that cannot be read were kept as bytes.
     tolerant: bool,
@@ -116,7 +114,6 @@ impl Layout {
         let unsized_later = quirks.contains(Quirk::UnsizedSections);
         Self {
             version: if unsized_later { Version::new(4, 0) } else { version },
-            unsized_later,
             draft: quirks.contains(Quirk::DraftLayout),
             tolerant: quirks.contains(Quirk::UnreadableDescription),
         }

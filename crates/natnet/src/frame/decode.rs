@@ -55,7 +55,7 @@ impl Frame {
         self.read_bodies(version, &mut reader, quirks)?;
         self.read_devices(version, &mut reader, quirks)?;
         self.read_later(version, &mut reader, quirks)?;
-        self.read_suffix(version, &mut reader, *quirks)?;
+        self.read_suffix(version, &mut reader, quirks)?;
         end_of_frame(&mut reader)?;
         reader.finish()
     }
@@ -153,11 +153,10 @@ impl Frame {
         Ok(())
     }
 
-    fn read_suffix(&mut self, version: Version, reader: &mut Reader<'_>, quirks: Quirks) -> Result<(), Error> {
+    fn read_suffix(&mut self, version: Version, reader: &mut Reader<'_>, quirks: &mut Quirks) -> Result<(), Error> {
         reader.enter(section::SUFFIX);
-        // Without sizes, only the length of the suffix tells whether it has the precision time.
-        let precise = version.has_precision_time()
-            || (quirks.contains(Quirk::UnsizedSections) && reader.left() == section::SUFFIX_SIZE);
+        let precise = section::has_precision_time(version, reader.left());
+        quirks.insert_if(precise && !version.has_precision_time(), Quirk::ExtraPrecisionTime);
         self.latency = when(version.has_latency(), || reader.f32())?;
         self.timecode = when(version.has_timecode(), || timecode(reader))?;
         self.timestamp = when(version.has_timestamp(), || timestamp(version, reader))?;

@@ -98,6 +98,8 @@ pub struct OpaqueSection {
 
 /// Names of the sections in errors and explanations.
 pub(crate) mod section {
+    use crate::Version;
+
     pub(crate) const PREFIX: &str = "frame prefix";
     pub(crate) const MARKER_SETS: &str = "marker sets";
     pub(crate) const OTHER_MARKERS: &str = "other markers";
@@ -111,4 +113,10 @@ pub(crate) mod section {
     pub(crate) const SUFFIX: &str = "frame suffix";
     /// Bytes of the suffix since 4.1.
     pub(crate) const SUFFIX_SIZE: usize = 54;
+
+    /// Whether a suffix of so many bytes has a precision time. Documents and clients disagree about
+    /// the versions from 3.0 to 4.0; the size tells.
+    pub(crate) fn has_precision_time(version: Version, size: usize) -> bool {
+        version.has_precision_time() || (version.has_host_stamps() && size == SUFFIX_SIZE)
+    }
 }

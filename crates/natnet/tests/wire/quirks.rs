@@ -26,7 +26,7 @@ fn each_deviation_has_its_quirk() {
         ("frame_1_4_draft", Quirk::DraftLayout),
         ("model_1_4_draft", Quirk::DraftLayout),
         ("quirk_unsized_frame", Quirk::UnsizedSections),
-        ("quirk_unsized_frame_precise", Quirk::UnsizedSections),
+        ("quirk_precision_time", Quirk::ExtraPrecisionTime),
         ("quirk_unsized_model", Quirk::UnsizedSections),
         ("quirk_missing_sections", Quirk::MissingSections),
         ("quirk_extra_sections", Quirk::ExtraSections),
@@ -78,9 +78,10 @@ fn a_draft_without_models_is_a_frame_number() {
 #[test]
 fn a_server_of_4_5_without_sizes_is_understood() {
     let (plain, _) = frame("quirk_unsized_frame");
-    let (precise, _) = frame("quirk_unsized_frame_precise");
+    let (precise, quirks) = frame("quirk_unsized_frame_precise");
     let (v4_0, _) = frame("frame_4_0");
     assert_eq!(plain, v4_0);
+    assert!(quirks.iter().eq([Quirk::UnsizedSections, Quirk::ExtraPrecisionTime]));
     assert_eq!(precise.labeled_markers, v4_0.labeled_markers);
     assert_eq!(precise.precision_time.unwrap().fraction, 9);
 }

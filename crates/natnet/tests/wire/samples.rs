@@ -197,7 +197,8 @@ fn unusual() -> Vec<Sample> {
         Sample::payload("frame_1_4_draft", v1, MessageId::FRAME, |out| frame().encode_draft(out)),
         Sample::payload("model_1_4_draft", v1, MessageId::MODEL, |out| model().encode_draft(out)),
         frame_of("quirk_unsized_frame", v4_5, v4_0),
-        unsized_with_precision_time(v4_5),
+        with_precision_time("quirk_precision_time", v4_0),
+        with_precision_time("quirk_unsized_frame_precise", v4_5),
         frame_of("quirk_missing_sections", v4_5, v4_4),
         frame_of("quirk_extra_sections", v4_4, v4_5),
         Sample::payload("quirk_unsized_model", v4_5, MessageId::MODEL, |out| {
@@ -220,8 +221,8 @@ fn unusual() -> Vec<Sample> {
 }
 
 /// The 4.0 layout with the suffix of 4.1.
-fn unsized_with_precision_time(version: Version) -> Sample {
-    Sample::payload("quirk_unsized_frame_precise", version, MessageId::FRAME, |out| {
+fn with_precision_time(name: &str, version: Version) -> Sample {
+    Sample::payload(name, version, MessageId::FRAME, |out| {
         frame().encode(Version::new(4, 0), out);
         let end = out.len() - 6;
         let time = [1_700_000_000_u32.to_le_bytes(), 9_u32.to_le_bytes()].concat();
