@@ -50,107 +50,35 @@ impl Frame {
     }
 
     fn read(&mut self, version: Version, payload: &[u8], quirks: &mut Quirks) -> Result<(), Error> {
-        let mut reader = Reader::new(section::PREFIX, payload);
-        self.number = reader.i32()?;
-        self.read_bodies(version, &mut reader, quirks)?;
-        self.read_devices(version, &mut reader, quirks)?;
-        self.read_later(version, &mut reader, quirks)?;
+        let mut sections = Sections {
+            reader: Reader::new(section::PREFIX, payload),
+            version,
+            quirks,
+        };
+        self.number = sections.reader.i32()?;
+        self.read_sections(&mut sections)?;
+        let Sections { mut reader, quirks, .. } = sections;
         self.read_suffix(version, &mut reader, quirks)?;
         end_of_frame(&mut reader)?;
         reader.finish()
     }
 
-    fn read_bodies(&mut self, version: Version, reader: &mut Reader<'_>, quirks: &mut Quirks) -> Result<(), Error> {
-        let all = true;
-        optional(
-            all,
-            section::MARKER_SETS,
-            &mut self.marker_sets,
-            version,
-            reader,
-            quirks,
-        )?;
-        optional(
-            all,
-            section::OTHER_MARKERS,
-            &mut self.other_markers,
-            version,
-            reader,
-            quirks,
-        )?;
-        optional(
-            all,
-            section::RIGID_BODIES,
-            &mut self.rigid_bodies,
-            version,
-            reader,
-            quirks,
-        )?;
-        let skeletons = version.has_skeletons();
-        optional(
-            skeletons,
-            section::SKELETONS,
-            &mut self.skeletons,
-            version,
-            reader,
-            quirks,
-        )?;
-        optional(
-            version.has_assets(),
-            section::ASSETS,
-            &mut self.assets,
-            version,
-            reader,
-            quirks,
-        )
-    }
-
-    fn read_devices(&mut self, version: Version, reader: &mut Reader<'_>, quirks: &mut Quirks) -> Result<(), Error> {
+    fn read_sections(&mut self, sections: &mut Sections<'_>) -> Result<(), Error> {
+        let version = sections.version;
+        sections.list(true, section::MARKER_SETS, &mut self.marker_sets)?;
+        sections.list(true, section::OTHER_MARKERS, &mut self.other_markers)?;
+        sections.list(true, section::RIGID_BODIES, &mut self.rigid_bodies)?;
+        sections.list(version.has_skeletons(), section::SKELETONS, &mut self.skeletons)?;
+        sections.list(version.has_assets(), section::ASSETS, &mut self.assets)?;
         let labeled = version.has_labeled_markers();
-        optional(
-            labeled,
-            section::LABELED_MARKERS,
-            &mut self.labeled_markers,
-            version,
-            reader,
-            quirks,
-        )?;
-        let plates = version.has_force_plates();
-        optional(
-            plates,
+        sections.list(labeled, section::LABELED_MARKERS, &mut self.labeled_markers)?;
+        sections.list(
+            version.has_force_plates(),
             section::FORCE_PLATES,
             &mut self.force_plates,
-            version,
-            reader,
-            quirks,
         )?;
-        optional(
-            version.has_devices(),
-            section::DEVICES,
-            &mut self.devices,
-            version,
-            reader,
-            quirks,
-        )
-    }
-
-    /// All sections before the suffix, however many there are.
-    fn read_later(&mut self, version: Version, reader: &mut Reader<'_>, quirks: &mut Quirks) -> Result<(), Error> {
-        let mut count = 0;
-        if version.has_sized_sections() {
-            reader.enter(section::LATER);
-            while reader.left() > section::SUFFIX_SIZE {
-                if count == self.later_sections.len() {
-                    self.later_sections.push(OpaqueSection::default());
-                }
-                read_opaque(&mut self.later_sections[count], reader)?;
-                count += 1;
-            }
-            quirks.insert_if(count > version.later_sections(), Quirk::ExtraSections);
-            quirks.insert_if(count < version.later_sections(), Quirk::MissingSections);
-        }
-        self.later_sections.truncate(count);
-        Ok(())
+        sections.list(version.has_devices(), section::DEVICES, &mut self.devices)?;
+        sections.later(&mut self.later_sections)
     }
 
     fn read_suffix(&mut self, version: Version, reader: &mut Reader<'_>, quirks: &mut Quirks) -> Result<(), Error> {
@@ -198,22 +126,44 @@ impl Frame {
     }
 }
 
-/// A section that a version has or has not.
-#[inline]
-fn optional<T: Record>(
-    there: bool,
-    name: &'static str,
-    list: &mut Vec<T>,
+/// The sections between frame number and suffix, in their order.
+struct Sections<'a> {
+    reader: Reader<'a>,
     version: Version,
-    reader: &mut Reader<'_>,
-    quirks: &mut Quirks,
-) -> Result<(), Error> {
-    if !there {
-        list.clear();
-        return Ok(());
+    quirks: &'a mut Quirks,
+}
+
+impl Sections<'_> {
+    /// The next section, when the version has it.
+    #[inline]
+    fn list<T: Record>(&mut self, there: bool, name: &'static str, list: &mut Vec<T>) -> Result<(), Error> {
+        if !there {
+            list.clear();
+            return Ok(());
+        }
+        self.reader.enter(name);
+        read_section(list, &mut self.reader, self.version, self.quirks)
     }
-    reader.enter(name);
-    read_section(list, reader, version, quirks)
+
+    /// All sections before the suffix, however many there are.
+    fn later(&mut self, list: &mut Vec<OpaqueSection>) -> Result<(), Error> {
+        let mut count = 0;
+        if self.version.has_sized_sections() {
+            self.reader.enter(section::LATER);
+            while self.reader.left() > section::SUFFIX_SIZE {
+                if count == list.len() {
+                    list.push(OpaqueSection::default());
+                }
+                read_opaque(&mut list[count], &mut self.reader)?;
+                count += 1;
+            }
+        }
+        list.truncate(count);
+        let expected = self.version.later_sections();
+        self.quirks.insert_if(count > expected, Quirk::ExtraSections);
+        self.quirks.insert_if(count < expected, Quirk::MissingSections);
+        Ok(())
+    }
 }
 
 fn read_opaque(opaque: &mut OpaqueSection, reader: &mut Reader<'_>) -> Result<(), Error> {

@@ -141,6 +141,29 @@ fn the_wrong_version_is_an_error() {
 }
 
 #[test]
+fn versions_between_two_layouts_are_laid_out_as_the_earlier() {
+    let pairs = [
+        (2, 2, 2, 1),
+        (2, 5, 2, 3),
+        (2, 8, 2, 7),
+        (2, 10, 2, 9),
+        (3, 1, 3, 0),
+        (4, 4, 4, 2),
+        (5, 0, 4, 5),
+    ];
+    for (major, minor, earlier_major, earlier_minor) in pairs {
+        let payload = |version| {
+            let mut payload = Vec::new();
+            samples::frame().encode(version, &mut payload);
+            samples::model().encode(version, &mut payload);
+            payload
+        };
+        let earlier = Version::new(earlier_major, earlier_minor);
+        assert_eq!(payload(Version::new(major, minor)), payload(earlier), "{major}.{minor}");
+    }
+}
+
+#[test]
 fn a_section_size_beyond_the_bytes_is_refused() {
     let mut payload = Vec::new();
     Frame::default().encode(V4_1, &mut payload);
