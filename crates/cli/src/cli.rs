@@ -1,6 +1,7 @@
 //! The command line: verbs, options and the words that explain them.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use posewire_natnet::Version;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -171,21 +172,52 @@ pub(crate) struct Inspect {
     pub(crate) salvage: bool,
 }
 
-/// Explain the bytes of MXTP datagrams, field by field.
+/// Explain the bytes of MXTP datagrams or NatNet packets, field by field.
 #[derive(Debug, Args)]
-#[command(after_help = "\
-The file holds one datagram, or several back to back as TCP carries them.
+#[command(
+    disable_version_flag = true,
+    after_help = "\
+The file holds one datagram, or several back to back: of MXTP as TCP carries them, of NatNet by the sizes they state.
+
+No NatNet packet says which bitstream it is of. Without --version the newest whose layout fits is taken.
 
 Examples:
   posewire explain packet.bin
-  xxd -r -p packet.hex | posewire explain -")]
+  posewire explain frame.bin --version 3.1
+  posewire explain cut.bin --protocol natnet
+  xxd -r -p packet.hex | posewire explain -"
+)]
 pub(crate) struct Explain {
     /// A file of raw bytes; - is the standard input.
     pub(crate) file: PathBuf,
 
+    /// What the bytes are; told by the bytes themselves when left out.
+    #[arg(long, value_enum, ignore_case = true)]
+    pub(crate) protocol: Option<Protocol>,
+
+    /// The bitstream that NatNet frames and descriptions are of.
+    #[arg(long, value_name = "M.m")]
+    pub(crate) version: Option<Version>,
+
     /// Print JSON, one object for each datagram.
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Protocol {
+    Mxtp,
+    Natnet,
+}
+
+impl Protocol {
+    /// As it is spelled.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Mxtp => "mxtp",
+            Self::Natnet => "natnet",
+        }
+    }
 }
 
 /// See it work: people walk, are streamed over the loopback and monitored.

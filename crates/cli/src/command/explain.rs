@@ -2,39 +2,30 @@
 
 mod input;
 mod json;
-mod split;
+mod mxtp;
+mod natnet;
+mod part;
+mod protocol;
 mod text;
 
 use super::End;
 use crate::cli::Explain;
 use crate::error::Failure;
-use posewire_mxtp::{Explanation, Header, explain};
-use split::{Part, Parts};
+use part::Part;
+use protocol::Reading;
 use std::io::{self, BufWriter, Write};
 
 pub(super) fn run(arguments: &Explain) -> anyhow::Result<End> {
     let bytes = input::read(&arguments.file)?;
+    let name = input::name(&arguments.file);
+    let reading = Reading::of(&bytes, arguments, &name)?;
     let mut out = BufWriter::new(io::stdout().lock());
-    let tally = write_parts(&bytes, arguments.json, &mut out)?;
+    let tally = write_parts(&bytes, &reading, arguments.json, &mut out)?;
     out.flush()?;
     if tally.decoded > 0 {
         return Ok(End::Done);
     }
-    Err(nothing_decoded(&input::name(&arguments.file), &bytes, &tally).into())
-}
-
-/// A datagram of the input, explained.
-struct Explained<'a> {
-    /// Where it begins in the input.
-    offset: usize,
-    bytes: &'a [u8],
-    explanation: Explanation,
-}
-
-impl Explained<'_> {
-    fn header(&self) -> Option<Header> {
-        Header::decode(self.bytes).ok()
-    }
+    Err(nothing_decoded(&name, &bytes, &tally, &reading).into())
 }
 
 /// What the input held.
@@ -55,18 +46,14 @@ impl Tally {
     }
 }
 
-fn write_parts(bytes: &[u8], json: bool, out: &mut impl Write) -> anyhow::Result<Tally> {
+fn write_parts(bytes: &[u8], reading: &Reading, json: bool, out: &mut impl Write) -> anyhow::Result<Tally> {
     let mut tally = Tally::default();
-    for part in Parts::of(bytes) {
+    for part in reading.parts(bytes) {
         let mut decodes = false;
         match part {
             Part::Datagram { offset, bytes } => {
-                let explained = Explained {
-                    offset,
-                    bytes,
-                    explanation: explain(bytes),
-                };
-                decodes = explained.explanation.error.is_none();
+                let explained = reading.explain(offset, bytes);
+                decodes = explained.error.is_none();
                 if json {
                     json::write_datagram(&explained, out)?;
                 } else {
@@ -84,30 +71,28 @@ fn write_parts(bytes: &[u8], json: bool, out: &mut impl Write) -> anyhow::Result
     Ok(tally)
 }
 
-fn nothing_decoded(name: &str, bytes: &[u8], tally: &Tally) -> Failure {
+fn nothing_decoded(name: &str, bytes: &[u8], tally: &Tally, reading: &Reading) -> Failure {
     let problem = match tally.malformed {
         0 => {
+            let expected = reading.expected();
             let beginning = bytes[..bytes.len().min(8)].escape_ascii();
-            format!("{name}: expected datagrams, which begin with \"MXTP\", found \"{beginning}\" and no datagram")
+            format!("{name}: expected {expected}, found \"{beginning}\" and no datagram")
         }
         1 => format!("{name}: the datagram is malformed and was explained as far as it goes"),
         count => format!("{name}: all {count} datagrams are malformed and were explained as far as they go"),
     };
     let help = match tally.malformed {
-        0 => "give the payload of UDP datagrams, or a TCP stream, as raw bytes",
-        _ => "the error above names the place; check how the bytes were captured",
+        0 => reading.way_out(bytes),
+        _ => "the error above names the place; check how the bytes were captured".to_owned(),
     };
-    Failure {
-        problem,
-        help: help.to_owned(),
-    }
+    Failure { problem, help }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use posewire_mxtp::body::{Body, TimeCode};
-    use posewire_mxtp::{Datagram, MessageType};
+    use posewire_mxtp::{Datagram, Header, MessageType};
 
     fn time_code() -> Vec<u8> {
         let mut bytes = Vec::new();
@@ -119,7 +104,7 @@ mod tests {
 
     fn told(bytes: &[u8], json: bool) -> (String, Tally) {
         let mut out = Vec::new();
-        let tally = write_parts(bytes, json, &mut out).unwrap();
+        let tally = write_parts(bytes, &Reading::Mxtp, json, &mut out).unwrap();
         (String::from_utf8(out).unwrap(), tally)
     }
 

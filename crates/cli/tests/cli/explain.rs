@@ -3,6 +3,7 @@
 use crate::program::{Ended, assert_documented, assert_fits, posewire, reference, vectors};
 use serde_json::Value;
 use std::fs;
+use std::path::PathBuf;
 
 fn explain(arguments: &[&str], input: &[u8]) -> Ended {
     posewire(&vectors(), &[&["explain"], arguments].concat(), input)
@@ -10,6 +11,23 @@ fn explain(arguments: &[&str], input: &[u8]) -> Ended {
 
 fn vector(name: &str) -> Vec<u8> {
     fs::read(vectors().join(name).with_extension("bin")).unwrap()
+}
+
+/// The project's own NatNet packets.
+fn natnet_vectors() -> PathBuf {
+    vectors().with_file_name("natnet")
+}
+
+fn natnet(name: &str) -> Vec<u8> {
+    fs::read(natnet_vectors().join(name).with_extension("bin")).unwrap()
+}
+
+/// The only object of a run that had a single datagram.
+fn object(ended: &Ended) -> Value {
+    let [object] = &objects(ended)[..] else {
+        panic!("{}{}", ended.out, ended.err)
+    };
+    object.clone()
 }
 
 fn objects(ended: &Ended) -> Vec<Value> {
@@ -59,10 +77,13 @@ quirks
 
 #[test]
 fn every_vector_is_explained_within_the_page() {
-    for entry in fs::read_dir(vectors()).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_some_and(|ending| ending == "bin") {
-            let ended = explain(&[path.to_str().unwrap()], b"");
+    for (folder, protocol) in [(vectors(), "mxtp"), (natnet_vectors(), "natnet")] {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_none_or(|ending| ending != "bin") {
+                continue;
+            }
+            let ended = explain(&[path.to_str().unwrap(), "--protocol", protocol], b"");
             assert_eq!((ended.code, ended.err.as_str()), (Some(0), ""), "{}", path.display());
             let (_, table) = ended.out.split_once('\n').unwrap();
             assert_fits(table);
@@ -81,6 +102,10 @@ fn json_has_the_header_and_every_field() {
     assert_eq!(
         (&object["header"]["type"], &object["header"]["revision"]),
         (&"25".into(), &"N".into())
+    );
+    assert_eq!(
+        (&object["protocol"], &object["bitstream"]),
+        (&"mxtp".into(), &Value::Null)
     );
     assert_eq!(object["quirks"], serde_json::json!(["time-code-text"]));
     assert_eq!(object["error"], Value::Null);
@@ -204,5 +229,168 @@ fn captured_datagrams_have_no_quirks() {
         };
         assert_eq!(object["quirks"], serde_json::json!([]));
         assert_eq!(object["error"], Value::Null);
+    }
+}
+
+#[test]
+fn a_natnet_packet_is_explained_field_by_field() {
+    let expected = "\
+NatNet ECHORESPONSE client 5000, server 7000000
+ECHORESPONSE, 20 bytes at byte 0
+
+offset  bytes             field         value
+     0  0d00              message       13       ECHORESPONSE
+     2  1000              payload_size  16       bytes
+     4  8813000000000000  client_ticks  5000     ticks
+    12  c0cf6a0000000000  server_ticks  7000000  ticks
+";
+    let ticks = [5_000_u64, 7_000_000].map(u64::to_le_bytes).concat();
+    let ended = explain(&["-"], &[b"\x0d\0\x10\0", &ticks[..]].concat());
+    assert_eq!(
+        ended,
+        Ended {
+            code: Some(0),
+            out: expected.to_owned(),
+            err: String::new()
+        }
+    );
+}
+
+#[test]
+fn a_natnet_version_is_guessed_or_given() {
+    let frame = natnet("frame_3_0");
+    let guessed = object(&explain(&["-", "--json"], &frame));
+    assert_documented(&guessed, "datagram", &[]);
+    assert_eq!(guessed["protocol"], "natnet");
+    let header = serde_json::json!({"message": 7, "name": "FRAMEOFDATA", "payload_size": frame.len() - 4});
+    assert_eq!(guessed["header"], header);
+    let bitstream = serde_json::json!({"version": "4.0", "given": false, "alike": ["3.0"], "otherwise": []});
+    assert_eq!(guessed["bitstream"], bitstream);
+    let given = object(&explain(&["--version", "3.1", "-", "--json"], &frame));
+    let bitstream = serde_json::json!({"version": "3.1", "given": true, "alike": [], "otherwise": []});
+    assert_eq!(given["bitstream"], bitstream);
+    assert_eq!(given["fields"], guessed["fields"]);
+
+    let text = explain(&["-"], &frame).out;
+    let line = "\nbitstream 4.0 is a guess: 3.0 would read the same\n\noffset ";
+    assert!(text.contains(line), "{text}");
+    let text = explain(&["-", "--version", "3.0"], &frame).out;
+    assert!(
+        text.contains("\nFRAMEOFDATA, bitstream 3.0, 602 bytes at byte 0\n\noffset "),
+        "{text}"
+    );
+}
+
+#[test]
+fn every_natnet_vector_decodes_as_its_version() {
+    for entry in fs::read_dir(natnet_vectors()).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|ending| ending == "json") {
+            let vector: Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
+            let packet = path.with_extension("bin");
+            let version = vector["version"].as_str().unwrap();
+            let ended = explain(&[packet.to_str().unwrap(), "--version", version, "--json"], b"");
+            let explained = object(&ended);
+            assert_eq!(explained["error"], Value::Null, "{}", path.display());
+            assert_eq!(explained["quirks"], vector["quirks"], "{}", path.display());
+            assert_eq!(explained["header"]["message"], vector["message"]);
+        }
+    }
+}
+
+#[test]
+fn natnet_packets_back_to_back_share_one_version() {
+    let [info, model, frame] = ["server_info_279", "model_3_0", "frame_3_0"].map(natnet);
+    let stream = [&info[..], &model, &frame, b"noise"].concat();
+    let objects = objects(&explain(&["-", "--json"], &stream));
+    let versions = objects.iter().map(|object| object["bitstream"]["version"].as_str());
+    assert!(versions.eq([None, Some("3.0"), Some("3.0"), None]));
+    assert_eq!(objects[3]["kind"], "skipped");
+    let ended = explain(&["-"], &stream);
+    assert!(ended.out.ends_with("\n3 datagrams, 5 bytes skipped\n"), "{}", ended.out);
+}
+
+#[test]
+fn the_wrong_protocol_is_named_with_the_way_out() {
+    let (pose, frame) = (vector("02_quaternion_rev_j"), natnet("frame_3_0"));
+    for (arguments, input, code, error) in [
+        (
+            &["--protocol", "natnet"][..],
+            &pose[..],
+            2,
+            "error: the standard input begins with \"MXTP\", it is no NatNet\nhelp: leave --protocol out, ",
+        ),
+        (
+            &["--version", "3.1"],
+            &pose,
+            2,
+            "error: --version 3.1 is of NatNet, the standard input is read as MXTP\nhelp: leave --version out",
+        ),
+        (
+            &["--protocol", "mxtp"],
+            &frame,
+            1,
+            "error: the standard input: expected datagrams, which begin with \"MXTP\", found ",
+        ),
+        (
+            &[],
+            &frame[..100],
+            1,
+            "error: the standard input: expected datagrams, which begin with \"MXTP\", or whole NatNet packets, found ",
+        ),
+        (
+            &["--version", "three"],
+            &frame,
+            2,
+            "error: invalid value 'three' for '--version <M.m>': expected a version such as \"3.1\", found \"three\"",
+        ),
+    ] {
+        let ended = explain(&[&["-"], arguments].concat(), input);
+        assert_eq!(ended.code, Some(code), "{}", ended.err);
+        assert!(ended.err.starts_with(error), "{}", ended.err);
+    }
+    let help = "help: leave --protocol out: it begins as a NatNet FRAMEOFDATA does\n";
+    assert!(explain(&["-", "--protocol", "mxtp"], &frame).err.ends_with(help));
+    let cut = explain(&["-"], &frame[..100]).err;
+    assert!(
+        cut.contains("FRAMEOFDATA of 598 bytes") && cut.ends_with("cut short: --protocol natnet\n"),
+        "{cut}"
+    );
+}
+
+#[test]
+fn a_cut_natnet_packet_is_explained_up_to_the_cut() {
+    let ended = explain(&["-", "--protocol", "natnet"], &natnet("frame_3_0")[..100]);
+    assert_eq!(ended.code, Some(1));
+    assert!(ended.out.starts_with("NatNet FRAMEOFDATA malformed\n"), "{}", ended.out);
+    assert!(ended.out.contains("other_markers.count"), "{}", ended.out);
+    assert!(
+        ended.out.contains("\nmalformed\n  other markers: expected "),
+        "{}",
+        ended.out
+    );
+}
+
+#[test]
+fn captured_natnet_packets_are_told_by_their_bytes() {
+    for (name, version, number) in [
+        ("mocapframe_packet_v3", "4.0", Some(162_734)),
+        ("modeldef_packet_v3", "3.0", None),
+        ("frame-motive-1.7.2-001", "2.7", Some(411_213)),
+    ] {
+        let Some(path) = reference(&format!("natnet/{name}.bin")) else {
+            return;
+        };
+        let object = object(&explain(&[path.to_str().unwrap(), "--json"], b""));
+        assert_eq!(object["bitstream"]["version"], version, "{name}");
+        assert_eq!(
+            (&object["quirks"], &object["error"]),
+            (&serde_json::json!([]), &Value::Null)
+        );
+        let field = &object["fields"][2];
+        assert_eq!(
+            field["value"].as_u64().filter(|_| field["name"] == "frame_number"),
+            number
+        );
     }
 }

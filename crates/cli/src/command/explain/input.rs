@@ -32,6 +32,11 @@ pub(super) fn name(path: &Path) -> String {
     }
 }
 
+/// Whether it begins as MXTP does.
+pub(super) fn is_mxtp(bytes: &[u8]) -> bool {
+    bytes.starts_with(&Header::MAGIC)
+}
+
 fn is_standard_input(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
@@ -76,7 +81,7 @@ fn refuse_other_content(path: &Path, bytes: &[u8]) -> Result<(), Usage> {
     let beginning = &bytes[..bytes.len().min(4096)];
     let (problem, help) = if bytes.is_empty() {
         ("is empty", "give a file with the raw bytes of a datagram".to_owned())
-    } else if beginning.starts_with(&Header::MAGIC) {
+    } else if is_mxtp(beginning) {
         return Ok(());
     } else if beginning.windows(5).any(|word| word == b"<mvnx") || beginning.starts_with(&GZIP) {
         ("is a take, explain reads datagrams", format!("posewire inspect {name}"))
@@ -99,10 +104,10 @@ fn refuse_other_content(path: &Path, bytes: &[u8]) -> Result<(), Usage> {
     })
 }
 
-/// Whether it is `MXTP` in hexadecimal digits, with any spacing.
+/// Whether it is hexadecimal digits, as many as a header has at least, with any spacing.
 fn is_hex_text(bytes: &[u8]) -> bool {
-    let digits = bytes.iter().filter(|byte| !byte.is_ascii_whitespace());
-    digits.take(8).map(u8::to_ascii_lowercase).eq(*b"4d585450")
+    let mut digits = bytes.iter().filter(|byte| !byte.is_ascii_whitespace());
+    digits.clone().count() >= 8 && digits.all(u8::is_ascii_hexdigit)
 }
 
 const LIMIT: usize = 64 << 20;
@@ -129,6 +134,8 @@ mod tests {
         assert_eq!(problem(b"\x1f\x8b\x08").as_deref(), Some(take));
         let hex = "x holds the bytes as hexadecimal text; xxd -r -p x | posewire explain -";
         assert_eq!(problem(b"4D 58 54 50 30 32").as_deref(), Some(hex));
+        assert_eq!(problem(b"0a00 0000\n").as_deref(), Some(hex));
+        assert_eq!(problem(b"\x0a\0\0\0"), None);
         assert!(problem(b"").is_some());
     }
 }

@@ -1,24 +1,24 @@
 //! Explanations as JSON, one object a line. The field names are documented in docs/json.md.
 
-use super::Explained;
+use super::natnet::{Bitstream, Origin};
+use super::part::{Explained, Field, Header, Value, hexadecimal};
 use crate::json;
-use posewire_mxtp::{Datagram, Field, Header, Quirk, Value};
+use posewire_natnet::{MessageId, Version};
 use serde::Serialize;
 use std::io::Write;
 
 pub(super) fn write_datagram(explained: &Explained<'_>, out: &mut impl Write) -> posewire::Result<()> {
-    let explanation = &explained.explanation;
     let record = DatagramRecord {
         kind: "datagram",
+        protocol: explained.protocol.name(),
         offset: explained.offset,
         length: explained.bytes.len(),
-        summary: Datagram::decode(explained.bytes)
-            .ok()
-            .map(|datagram| datagram.to_string()),
-        header: explained.header().map(HeaderRecord::of),
-        fields: explanation.fields.iter().map(FieldRecord::of).collect(),
-        quirks: explanation.quirks.iter().map(Quirk::name).collect(),
-        error: explanation.error.as_ref().map(ToString::to_string),
+        summary: Some(&*explained.title).filter(|_| explained.error.is_none()),
+        header: explained.header.as_ref().map(HeaderRecord::of),
+        bitstream: explained.bitstream.map(BitstreamRecord::of),
+        fields: explained.fields.iter().map(FieldRecord::of).collect(),
+        quirks: explained.quirks.iter().map(|quirk| quirk.name).collect(),
+        error: explained.error.as_deref(),
     };
     json::write(out, &record)
 }
@@ -44,17 +44,35 @@ struct SkippedRecord {
 #[derive(Serialize)]
 struct DatagramRecord<'a> {
     kind: &'static str,
+    protocol: &'static str,
     offset: usize,
     length: usize,
-    summary: Option<String>,
+    summary: Option<&'a str>,
     header: Option<HeaderRecord>,
+    bitstream: Option<BitstreamRecord>,
     fields: Vec<FieldRecord<'a>>,
     quirks: Vec<&'static str>,
-    error: Option<String>,
+    error: Option<&'a str>,
 }
 
 #[derive(Serialize)]
-struct HeaderRecord {
+#[serde(untagged)]
+enum HeaderRecord {
+    Mxtp(MxtpHeaderRecord),
+    NatNet(NatNetHeaderRecord),
+}
+
+impl HeaderRecord {
+    fn of(header: &Header) -> Self {
+        match header {
+            Header::Mxtp(header) => Self::Mxtp(MxtpHeaderRecord::of(header)),
+            Header::NatNet { message, payload_size } => Self::NatNet(NatNetHeaderRecord::of(*message, *payload_size)),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct MxtpHeaderRecord {
     #[serde(rename = "type")]
     message_type: String,
     name: &'static str,
@@ -71,8 +89,8 @@ struct HeaderRecord {
     payload_size: u16,
 }
 
-impl HeaderRecord {
-    fn of(header: Header) -> Self {
+impl MxtpHeaderRecord {
+    fn of(header: &posewire_mxtp::Header) -> Self {
         Self {
             message_type: header.message_type.to_string(),
             name: header.message_type.name(),
@@ -87,6 +105,47 @@ impl HeaderRecord {
             finger_segments: header.finger_segments,
             reserved: header.reserved,
             payload_size: header.payload_size,
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct NatNetHeaderRecord {
+    message: u16,
+    name: &'static str,
+    payload_size: u16,
+}
+
+impl NatNetHeaderRecord {
+    const fn of(message: MessageId, payload_size: u16) -> Self {
+        Self {
+            message: message.0,
+            name: message.name(),
+            payload_size,
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct BitstreamRecord {
+    version: String,
+    given: bool,
+    alike: Vec<String>,
+    otherwise: Vec<String>,
+}
+
+impl BitstreamRecord {
+    fn of(bitstream: &Bitstream) -> Self {
+        let texts = |versions: &[Version]| versions.iter().map(ToString::to_string).collect();
+        let (alike, otherwise) = match &bitstream.origin {
+            Origin::Fits { alike, otherwise } => (texts(alike), texts(otherwise)),
+            _ => (Vec::new(), Vec::new()),
+        };
+        Self {
+            version: bitstream.version.to_string(),
+            given: bitstream.origin == Origin::Given,
+            alike,
+            otherwise,
         }
     }
 }
@@ -112,8 +171,9 @@ impl<'a> FieldRecord<'a> {
                 Value::Unsigned(number) => ValueRecord::Unsigned(*number),
                 Value::Signed(number) => ValueRecord::Signed(*number),
                 Value::Float(number) => ValueRecord::Float(*number),
+                Value::Double(number) => ValueRecord::Double(*number),
                 Value::Text(text) => ValueRecord::Text(text),
-                bytes @ Value::Bytes(_) => ValueRecord::Hex(bytes.to_string()),
+                Value::Bytes(bytes) => ValueRecord::Hex(hexadecimal(bytes)),
             },
             unit: field.unit,
             section: Some(field.section).filter(|section| !section.is_empty()),
@@ -126,9 +186,10 @@ impl<'a> FieldRecord<'a> {
 #[derive(Serialize)]
 #[serde(untagged)]
 enum ValueRecord<'a> {
-    Unsigned(u32),
+    Unsigned(u64),
     Signed(i32),
     Float(f32),
+    Double(f64),
     Text(&'a str),
     Hex(String),
 }

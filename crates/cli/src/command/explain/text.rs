@@ -1,24 +1,29 @@
 //! Explanations for people: a summary, a table of the fields, what is unusual.
 
-use super::{Explained, Tally};
+use super::Tally;
+use super::natnet::Bitstream;
+use super::part::{self, Explained, Field, Header, Value};
 use crate::plain::{cut, grouped, plural, printable};
-use posewire_mxtp::{Datagram, Field, Value};
+use std::fmt::{Display, LowerExp};
 use std::io::{self, Write};
 
 pub(super) fn write_datagram(explained: &Explained<'_>, out: &mut impl Write) -> io::Result<()> {
-    let explanation = &explained.explanation;
     if explained.offset > 0 {
         writeln!(out)?;
     }
-    writeln!(out, "{}", summary(explained))?;
-    writeln!(out, "{}\n", circumstances(explained))?;
-    write_table(&explanation.fields, explained.bytes, out)?;
-    for (place, quirk) in explanation.quirks.iter().enumerate() {
-        let title = if place == 0 { "\nquirks\n" } else { "" };
-        writeln!(out, "{title}  {:<22} {}", quirk.name(), quirk.meaning())?;
+    writeln!(out, "{}", cut(&printable(&explained.title), LONGEST_TITLE))?;
+    writeln!(out, "{}", circumstances(explained))?;
+    if let Some(reason) = explained.bitstream.and_then(Bitstream::reason) {
+        writeln!(out, "{reason}")?;
     }
-    match &explanation.error {
-        Some(error) => writeln!(out, "\nmalformed\n  {}", printable(&error.to_string())),
+    writeln!(out)?;
+    write_table(explained, out)?;
+    for (place, quirk) in explained.quirks.iter().enumerate() {
+        let title = if place == 0 { "\nquirks\n" } else { "" };
+        writeln!(out, "{title}  {:<22} {}", quirk.name, quirk.meaning)?;
+    }
+    match &explained.error {
+        Some(error) => writeln!(out, "\nmalformed\n  {}", printable(error)),
         None => Ok(()),
     }
 }
@@ -47,44 +52,40 @@ pub(super) fn write_tally(tally: &Tally, out: &mut impl Write) -> io::Result<()>
     writeln!(out)
 }
 
-/// What it is, in one line.
-fn summary(explained: &Explained<'_>) -> String {
-    let text = match (Datagram::decode(explained.bytes), explained.header()) {
-        (Ok(datagram), _) => datagram.to_string(),
-        (Err(_), Some(header)) => format!("{header} malformed"),
-        (Err(_), None) => "MXTP malformed header".to_owned(),
-    };
-    cut(&printable(&text), 200)
-}
-
 fn circumstances(explained: &Explained<'_>) -> String {
     let size = plural(explained.bytes.len() as u64, "byte");
     let place = format!("{size} at byte {}", grouped(explained.offset as u64));
-    match explained.header() {
-        Some(header) => {
+    match (&explained.header, explained.bitstream) {
+        (Some(Header::Mxtp(header)), _) => {
             let name = match header.message_type.name() {
                 "unknown" => "unknown type",
                 name => name,
             };
             format!("{name}, Rev {:?}, {place}", header.revision())
         }
-        None => place,
+        (Some(Header::NatNet { message, .. }), Some(Bitstream { version, .. })) => {
+            format!("{message}, bitstream {version}, {place}")
+        }
+        (Some(Header::NatNet { message, .. }), None) => format!("{message}, {place}"),
+        (None, _) => place,
     }
 }
 
-fn write_table(fields: &[Field], bytes: &[u8], out: &mut impl Write) -> io::Result<()> {
-    let table = Table::of(fields);
+fn write_table(explained: &Explained<'_>, out: &mut impl Write) -> io::Result<()> {
+    let table = Table::of(&explained.fields, explained.document);
     table.write_head(out)?;
-    for field in fields {
-        let field_bytes = bytes.get(field.offset..field.offset + field.length).unwrap_or_default();
-        table.write_field(field, field_bytes, out)?;
+    for field in &explained.fields {
+        let bytes = explained.bytes.get(field.offset..field.offset + field.length);
+        table.write_field(field, bytes.unwrap_or_default(), out)?;
     }
     Ok(())
 }
 
 /// How wide the columns are.
 struct Table {
+    document: Option<&'static str>,
     bytes: usize,
+    /// The column of a document that numbers its sections.
     section: usize,
     name: usize,
     /// Characters before the decimal point.
@@ -94,10 +95,10 @@ struct Table {
 }
 
 impl Table {
-    fn of(fields: &[Field]) -> Self {
+    fn of(fields: &[Field], document: Option<&'static str>) -> Self {
         let widest = |width: &dyn Fn(&Field) -> usize| fields.iter().map(width).max().unwrap_or(0);
         let whole = widest(&|field| match field.value {
-            Value::Float(_) => whole_digits(&value(&field.value)),
+            Value::Float(_) | Value::Double(_) => whole_digits(&value(&field.value)),
             _ => 1,
         });
         let number = |field: &Field| match field.value {
@@ -105,8 +106,11 @@ impl Table {
             _ => aligned(&field.value, whole).len(),
         };
         Self {
+            document,
             bytes: widest(&|field| (field.length * 2).min(SHOWN * 2 + 1)).max("bytes".len()),
-            section: widest(&|field| section(field).len()).max(SPECIFICATION.len()),
+            section: document.map_or(0, |document| {
+                widest(&|field| section(field, document).len()).max(document.len())
+            }),
             name: widest(&|field| field.name.chars().count()).clamp("field".len(), LONGEST_NAME),
             whole,
             value: widest(&number).max("value".len()),
@@ -115,13 +119,14 @@ impl Table {
     }
 
     fn write_head(&self, out: &mut impl Write) -> io::Result<()> {
-        let line = self.left("offset", "bytes", SPECIFICATION, "field") + "value";
+        let line = self.left("offset", "bytes", self.document.unwrap_or_default(), "field") + "value";
         writeln!(out, "{line}")
     }
 
     fn write_field(&self, field: &Field, bytes: &[u8], out: &mut impl Write) -> io::Result<()> {
         let name = cut(&printable(&field.name), LONGEST_NAME);
-        let left = self.left(&field.offset.to_string(), &hexadecimal(bytes), section(field), &name);
+        let section = self.document.map_or("", |document| section(field, document));
+        let left = self.left(&field.offset.to_string(), &hexadecimal(bytes), section, &name);
         let unit = field.unit.unwrap_or_default();
         let number = aligned(&field.value, self.whole);
         let width = self.value;
@@ -139,7 +144,10 @@ impl Table {
     /// The columns before the value.
     fn left(&self, offset: &str, bytes: &str, section: &str, name: &str) -> String {
         let (b, s, n) = (self.bytes, self.section, self.name);
-        format!("{offset:>6}  {bytes:<b$}  {section:<s$}  {name:<n$}  ")
+        match self.document {
+            Some(_) => format!("{offset:>6}  {bytes:<b$}  {section:<s$}  {name:<n$}  "),
+            None => format!("{offset:>6}  {bytes:<b$}  {name:<n$}  "),
+        }
     }
 
     /// The line with a note behind it, or on a line of its own when there is no room.
@@ -159,12 +167,9 @@ impl Table {
 }
 
 /// The section's number; the head of the column names the document.
-fn section(field: &Field) -> &str {
-    field
-        .section
-        .strip_prefix(SPECIFICATION)
-        .unwrap_or(field.section)
-        .trim_start()
+fn section<'a>(field: &'a Field, document: &str) -> &'a str {
+    let section = field.section;
+    section.strip_prefix(document).unwrap_or(section).trim_start()
 }
 
 fn aligned(of: &Value, whole: usize) -> String {
@@ -181,18 +186,28 @@ fn whole_digits(number: &str) -> usize {
 
 fn value(of: &Value) -> String {
     match of {
-        // Shortest digits that give the same bits again; as a power of ten where that is shorter.
-        Value::Float(number) if *number != 0.0 && !(1e-4..1e7).contains(&number.abs()) => format!("{number:e}"),
-        Value::Float(number) => number.to_string(),
+        Value::Unsigned(number) => number.to_string(),
+        Value::Signed(number) => number.to_string(),
+        Value::Float(number) => float(number, f64::from(*number)),
+        Value::Double(number) => float(number, *number),
         Value::Text(text) => cut(&format!("{:?}", cut(text, LONGEST_TEXT)), LONGEST_TEXT * 2),
         Value::Bytes(bytes) if bytes.len() > SHOWN => plural(bytes.len() as u64, "byte"),
-        other => other.to_string(),
+        Value::Bytes(bytes) => part::hexadecimal(bytes),
+    }
+}
+
+/// Shortest digits that give the same bits again; as a power of ten where that is shorter.
+fn float(number: &(impl Display + LowerExp), size: f64) -> String {
+    if size != 0.0 && !(1e-4..1e7).contains(&size.abs()) {
+        format!("{number:e}")
+    } else {
+        number.to_string()
     }
 }
 
 /// The first bytes of a field.
 fn hexadecimal(bytes: &[u8]) -> String {
-    let shown = Value::Bytes(bytes[..bytes.len().min(SHOWN)].to_vec()).to_string();
+    let shown = part::hexadecimal(&bytes[..bytes.len().min(SHOWN)]);
     if bytes.len() > SHOWN { shown + "…" } else { shown }
 }
 
@@ -221,10 +236,10 @@ fn write_dump(offset: usize, bytes: &[u8], out: &mut impl Write) -> io::Result<(
     }
 }
 
-const SPECIFICATION: &str = "MV0305";
 const PAGE: usize = 100;
 /// Bytes of a field in its row.
 const SHOWN: usize = 8;
+const LONGEST_TITLE: usize = 200;
 const LONGEST_NAME: usize = 40;
 const LONGEST_TEXT: usize = 120;
 const DUMPED_LINES: usize = 16;

@@ -1,26 +1,10 @@
 //! Cuts a file into datagrams and what is between them.
 
+use crate::command::explain::part::Part;
 use posewire_mxtp::{Datagram, Framer, Header};
 
-/// A run of bytes of the input.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part<'a> {
-    /// One datagram, maybe malformed.
-    Datagram {
-        /// Where it begins in the input.
-        offset: usize,
-        bytes: &'a [u8],
-    },
-    /// Bytes that belong to no datagram.
-    Skipped {
-        /// Where they begin in the input.
-        offset: usize,
-        bytes: &'a [u8],
-    },
-}
-
 /// The parts of an input, which together are all of it.
-pub(super) struct Parts<'a> {
+pub(in crate::command::explain) struct Parts<'a> {
     bytes: &'a [u8],
     framer: Framer,
     fed: usize,
@@ -36,7 +20,7 @@ pub(super) struct Parts<'a> {
 impl<'a> Parts<'a> {
     /// The parts of a file: a single datagram when its bytes make one, whatever size its header states, else the
     /// datagrams of a TCP stream.
-    pub(super) fn of(bytes: &'a [u8]) -> Self {
+    pub(in crate::command::explain) fn of(bytes: &'a [u8]) -> Self {
         let mut parts = Self::of_stream(bytes);
         if is_one_datagram(bytes) {
             parts.datagram = Some(bytes.len());
