@@ -36,6 +36,7 @@
 pub mod command;
 pub mod frame;
 pub mod model;
+pub mod motion;
 
 mod error;
 mod explain;
