@@ -71,9 +71,9 @@ pub(crate) fn frame() -> Frame {
         timecode: Some(Timecode::new(1, 2, 3, 4, 5)),
         timestamp: Some(775.25),
         host_stamps: Some(HostStamps {
-            mid_exposure: 1_416_498_000_000,
-            data_received: 1_416_498_010_000,
-            transmit: 1_416_498_020_000,
+            mid_exposure: 9_876_500_000_000,
+            data_received: 9_876_500_010_000,
+            transmit: 9_876_500_020_000,
         }),
         precision_time: Some(PrecisionTime {
             seconds: 1_700_000_000,
