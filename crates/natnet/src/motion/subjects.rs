@@ -98,6 +98,8 @@ impl Subjects {
     /// Takes over the server's descriptions, in place of all that it sent before.
     pub fn describe(&mut self, model: &Model) {
         let mut before = std::mem::take(&mut self.figures);
+        // No description is of loose markers.
+        self.figures.extend(before.remove_entry(&Entity::Markers));
         for description in &model.descriptions {
             let (entity, name, bones) = match description {
                 Description::RigidBody(body) => (Entity::Body(body.id), &body.name, std::slice::from_ref(body)),
