@@ -1,7 +1,9 @@
 //! Canonical motion to NatNet packets and back, through bytes of several versions.
 
 use posewire_motion::{DQuat, DVec3, Frame, Marker, Segment, SegmentKind, Skeleton, Subject, Up};
-use posewire_natnet::frame::{Frame as WireFrame, FrameParams, LabeledMarker, MarkerParams, RigidBody};
+use posewire_natnet::frame::{
+    Asset, BodyParams, Frame as WireFrame, FrameParams, LabeledMarker, MarkerParams, RigidBody,
+};
 use posewire_natnet::motion::{Coordinates, Encoder, Entity, OTHER_MARKERS, Settings, Subjects};
 use posewire_natnet::{Message, Version};
 use proptest::prelude::*;
@@ -243,6 +245,35 @@ fn markers_without_a_label_are_read_once() {
     subjects.read(&wire, &mut out);
     let position = Some(DVec3::new(3.0, 1.0, 2.0));
     assert_eq!(out[1].markers, [Marker { id: 12, position }]);
+}
+
+#[test]
+fn an_asset_is_a_subject_whose_markers_are_read_once() {
+    let bone = |id| RigidBody {
+        id,
+        orientation: [0.0, 0.0, 0.0, 1.0],
+        params: Some(BodyParams::TRACKED),
+        ..RigidBody::default()
+    };
+    let marker = LabeledMarker {
+        id: 7 << 16 | 1,
+        position: [1.0, 2.0, 3.0],
+        ..LabeledMarker::default()
+    };
+    let wire = WireFrame {
+        assets: vec![Asset {
+            id: 7,
+            rigid_bodies: vec![bone(7 << 16 | 1), bone(7 << 16 | 2)],
+            markers: vec![marker],
+        }],
+        labeled_markers: vec![marker],
+        ..WireFrame::default()
+    };
+    let mut out = Vec::new();
+    Subjects::new(Settings::default()).read(&wire, &mut out);
+    assert_eq!(out.len(), 1);
+    assert_eq!((out[0].subject.name.as_str(), out[0].markers.len()), ("Asset 7", 1));
+    assert_eq!(out[0].position, [Some(DVec3::ZERO); 2]);
 }
 
 #[test]
