@@ -33,6 +33,7 @@
 //! # Ok::<(), posewire_natnet::Error>(())
 //! ```
 
+pub mod client;
 pub mod command;
 pub mod frame;
 pub mod model;
@@ -49,6 +50,7 @@ mod packet;
 mod quirk;
 mod reader;
 mod record;
+mod retry;
 mod version;
 mod writer;
 

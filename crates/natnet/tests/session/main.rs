@@ -1,0 +1,7 @@
+//! Client and server in memory, with a network that loses, delays and reorders.
+
+mod client;
+mod network;
+mod properties;
+mod server;
+mod together;
