@@ -2,6 +2,8 @@
 //!
 //! The crate turns bytes into frames, descriptions and commands and back. It has no socket, no file
 //! and no clock. Versions 1.4 to 4.5 are spoken: [`Version`] says what each of them has.
+//! [`client::Client`] and [`server::Server`] are the two ends, which are told the time and what arrives
+//! and say what to send.
 //!
 //! ```
 //! use posewire_natnet::frame::{BodyParams, Frame, RigidBody};

@@ -68,6 +68,15 @@ impl Client {
             }
             return;
         }
+        self.adopt(now, from, info);
+        self.outputs.event(Event::Version(version));
+        self.negotiate(now);
+        self.keep_up(now);
+    }
+
+    /// Begins anew with a server that was not known.
+    fn adopt(&mut self, now: Stamp, from: SocketAddr, info: ServerInfo) {
+        let version = info.server.natnet_version;
         self.clock = ServerClock::new(info.connection.map_or(0, |connection| connection.clock_frequency));
         self.timers.connected(now, info.connection.is_some(), &self.options);
         self.numbers.restart();
@@ -83,9 +92,6 @@ impl Client {
             version,
         });
         self.outputs.event(event);
-        self.outputs.event(Event::Version(version));
-        self.negotiate(now);
-        self.keep_up(now);
     }
 
     fn take_frame(&mut self, now: Stamp, packet: &Packet<'_>) -> Result<(), Error> {

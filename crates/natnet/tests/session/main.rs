@@ -3,5 +3,6 @@
 mod client;
 mod network;
 mod properties;
+mod reference;
 mod server;
 mod together;
