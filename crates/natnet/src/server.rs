@@ -105,7 +105,7 @@ impl Server {
         let Some(limit) = self.options.silence_limit else {
             return;
         };
-        while let Some(client) = self.clients.remove_silent(now, limit) {
+        while let Some(client) = self.clients.remove_silent(now, limit, self.options.copy_to_data_port) {
             self.outputs.command(client, &Message::DisconnectByTimeout);
             let reason = LeftReason::Silent;
             self.outputs.event(Event::Left { client, reason });
@@ -120,8 +120,8 @@ impl Server {
     /// When [`handle_timeout`](Self::handle_timeout) is next due.
     pub fn timeout(&self) -> Option<Stamp> {
         let limit = self.options.silence_limit?;
-        let due = self.clients.as_slice().iter().map(|client| client.heard.after(limit));
-        due.min()
+        let heard = self.clients.longest_silent(self.options.copy_to_data_port)?;
+        Some(heard.after(limit))
     }
 
     /// Replaces the descriptions. The next frames say that they have changed, so that clients ask for them.

@@ -16,6 +16,8 @@ pub struct ConnectedClient {
     pub version: Version,
     /// When something last came from it.
     pub heard: Stamp,
+    /// Whether it has ever sent a keep-alive. Some clients never do.
+    pub keeps_alive: bool,
 }
 
 /// The clients, in the order in which they have connected.
@@ -53,7 +55,8 @@ impl Clients {
     pub(super) fn admit(&mut self, client: ConnectedClient) -> Admission {
         if let Some(known) = self.find_mut(client.address) {
             let same = known.version == client.version;
-            *known = client;
+            known.version = client.version;
+            known.heard = client.heard;
             return if same { Admission::Known } else { Admission::New };
         }
         if self.list.len() == MAX_CLIENTS {
@@ -69,11 +72,25 @@ impl Clients {
         self.list.len() < before
     }
 
-    /// Removes one client that has been silent for `limit`.
-    pub(super) fn remove_silent(&mut self, now: Stamp, limit: Duration) -> Option<SocketAddr> {
+    /// Removes one client that has been silent for `limit`, or stays in spite of that where `spare` says so.
+    pub(super) fn remove_silent(&mut self, now: Stamp, limit: Duration, spare: bool) -> Option<SocketAddr> {
         let is_silent = |client: &ConnectedClient| now.since(client.heard) >= limit;
-        let place = self.list.iter().position(is_silent)?;
+        let mut places = 0..self.list.len();
+        let place = places.find(|place| is_silent(&self.list[*place]) && !(spare && self.is_spared(*place)))?;
         Some(self.list.remove(place).address)
+    }
+
+    /// When somebody who is not spared was last heard, the longest ago.
+    pub(super) fn longest_silent(&self, spare: bool) -> Option<Stamp> {
+        let places = (0..self.list.len()).filter(|place| !(spare && self.is_spared(*place)));
+        places.map(|place| self.list[place].heard).min()
+    }
+
+    /// Whether a client never keeps alive and is the last that its host has brought: it may well be there still.
+    fn is_spared(&self, place: usize) -> bool {
+        let client = self.list[place];
+        let is_same_host = |other: &ConnectedClient| other.address.ip() == client.address.ip();
+        !client.keeps_alive && !self.list[place + 1..].iter().any(is_same_host)
     }
 
     /// The client of every host that has connected last.

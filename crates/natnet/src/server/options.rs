@@ -23,7 +23,9 @@ pub struct ServerOptions {
     pub clock_frequency: u64,
     /// Silence after which a client is dropped, `None` for never; 10 s unless set.
     pub silence_limit: Option<Duration>,
-    /// Whether a client's host gets its frames at the data port as well: some clients listen only there.
+    /// Whether a client's host gets its frames at the data port as well: some clients listen only there. These
+    /// never keep alive, so that with this option silence does not drop a client that has never sent a keep-alive
+    /// until its host brings another one.
     pub copy_to_data_port: bool,
     /// Frames a second, for those who ask.
     pub frame_rate: f32,

@@ -19,6 +19,7 @@ impl Server {
             MessageId::REQUEST_MODEL => self.send_model(from),
             MessageId::REQUEST_FRAME => self.note_single_frame(from),
             MessageId::DISCONNECT => self.disconnect(from),
+            MessageId::KEEP_ALIVE => self.note_keep_alive(from),
             MessageId::ECHO_REQUEST => {
                 let (EchoRequest { client_ticks }, _) = EchoRequest::decode(packet.payload)?;
                 let server_ticks = self.ticks(now);
@@ -44,6 +45,7 @@ impl Server {
             address: from,
             version,
             heard: now,
+            keeps_alive: false,
         };
         match self.clients.admit(client) {
             Admission::Refused => return self.refuse(from),
@@ -107,6 +109,12 @@ impl Server {
             self.outputs.event(Event::Version { client, version });
         }
         DONE
+    }
+
+    fn note_keep_alive(&mut self, from: SocketAddr) {
+        if let Some(client) = self.clients.find_mut(from) {
+            client.keeps_alive = true;
+        }
     }
 
     /// A client that is connected gets frames anyway.

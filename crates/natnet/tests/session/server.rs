@@ -253,6 +253,27 @@ fn a_copy_goes_to_the_data_port_of_every_host_once() {
 }
 
 #[test]
+fn a_client_at_the_data_port_that_never_keeps_alive_stays_until_its_host_brings_another() {
+    let mut server = Server::new(ServerOptions {
+        copy_to_data_port: true,
+        ..ServerOptions::default()
+    });
+    let first: SocketAddr = ([10, 0, 0, 2], 50_000).into();
+    let second: SocketAddr = ([10, 0, 0, 2], 50_001).into();
+    server.handle(START, first, b"\0\0\0\0");
+    let later = START.after(Duration::from_hours(1));
+    server.handle_timeout(later);
+    assert_eq!((server.clients().len(), server.timeout()), (1, None));
+    server.handle(later, second, b"\0\0\0\0");
+    server.handle(later, second, b"\x0a\0\0\0");
+    assert!(server.timeout().is_some_and(|due| due < later));
+    server.handle_timeout(later);
+    assert_eq!(server.clients().len(), 1);
+    server.handle_timeout(later.after(Duration::from_secs(10)));
+    assert_eq!((server.clients().len(), server.timeout()), (0, None));
+}
+
+#[test]
 fn a_group_gets_one_frame_whoever_connects() {
     let mut server = Server::new(ServerOptions {
         delivery: Delivery::Multicast(Ipv4Addr::new(239, 255, 42, 99)),
