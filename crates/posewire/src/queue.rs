@@ -29,7 +29,7 @@ use std::time::Duration;
 pub enum Policy {
     /// The oldest item makes room, and is counted as dropped.
     Newest,
-    /// The producer waits for room. One that cannot wait uses [`Producer::push_or_drop`].
+    /// The producer waits for room. One that cannot wait uses [`Producer::push_all_or_drop`].
     Lossless,
 }
 
@@ -139,31 +139,11 @@ impl<T> Producer<T> {
         Ok(())
     }
 
-    /// Adds an item without ever waiting: a full `Newest` queue drops its oldest item, a full
-    /// `Lossless` one drops the new item. Gives whether nothing was dropped; the drop is counted.
+    /// Adds all items under one lock without ever waiting: a full `Newest` queue drops its oldest items, a full
+    /// `Lossless` one drops the new items. Drops are counted. The vector is left empty and keeps its memory.
     ///
     /// # Errors
-    /// [`Closed`] when the consumer has gone or the queue was closed.
-    pub fn push_or_drop(&self, item: T) -> Result<bool, Closed> {
-        let mut state = self.shared.lock();
-        if state.closed {
-            return Err(Closed);
-        }
-        let full = state.items.len() >= self.shared.capacity;
-        if full && self.shared.policy == Policy::Lossless {
-            state.dropped += 1;
-            return Ok(false);
-        }
-        let _oldest = self.shared.add(&mut state, item);
-        self.shared.release(state);
-        Ok(!full)
-    }
-
-    /// Adds all items under one lock, oldest first, as [`push_or_drop`](Self::push_or_drop) would one by one. The
-    /// vector is left empty and keeps its memory.
-    ///
-    /// # Errors
-    /// [`Closed`] as for `push_or_drop`; the items are gone.
+    /// [`Closed`] when the consumer has gone or the queue was closed; the items are gone.
     pub fn push_all_or_drop(&self, items: &mut Vec<T>) -> Result<(), Closed> {
         let mut state = self.shared.lock();
         if state.closed {
@@ -343,7 +323,7 @@ mod tests {
     fn newest_keeps_the_last_and_counts_the_rest() {
         let (producer, consumer) = bounded(3, Policy::Newest);
         producer.push_all(&mut (0..10).collect()).unwrap();
-        assert_eq!(producer.push_or_drop(10), Ok(false));
+        assert_eq!(producer.push_all_or_drop(&mut vec![10]), Ok(()));
         assert_eq!((consumer.len(), producer.dropped()), (3, 8));
         drop(producer);
         assert_eq!(drain_all(&consumer), [8, 9, 10]);
@@ -352,8 +332,7 @@ mod tests {
     #[test]
     fn a_full_lossless_queue_drops_only_what_a_live_producer_brings() {
         let (producer, consumer) = bounded(2, Policy::Lossless);
-        let kept: Vec<_> = (0..5).map(|n| producer.push_or_drop(n).unwrap()).collect();
-        assert_eq!(kept, [true, true, false, false, false]);
+        (0..5).for_each(|n| producer.push_all_or_drop(&mut vec![n]).unwrap());
         assert_eq!(consumer.dropped(), 3);
         drop(producer);
         assert_eq!(drain_all(&consumer), [0, 1]);
@@ -449,7 +428,7 @@ mod tests {
         drop(consumer);
         assert_eq!(blocked.join().unwrap(), Err(Closed));
         assert_eq!(producer.push(3), Err(Closed));
-        assert_eq!(producer.push_or_drop(3), Err(Closed));
+        assert_eq!(producer.push_all_or_drop(&mut vec![3]), Err(Closed));
     }
 
     #[test]
