@@ -22,6 +22,24 @@ pub(super) enum Part<'a> {
     },
 }
 
+/// The lengths of parts that follow each other and are all of an input, those of skipped bytes negative.
+#[cfg(test)]
+pub(super) fn lengths<'a>(parts: impl Iterator<Item = Part<'a>>, input: usize) -> Vec<isize> {
+    let mut end = 0;
+    let lengths = parts.map(|part| {
+        let (offset, length, sign) = match part {
+            Part::Datagram { offset, bytes } => (offset, bytes.len(), 1),
+            Part::Skipped { offset, bytes } => (offset, bytes.len(), -1),
+        };
+        assert_eq!(offset, end);
+        end += length;
+        length as isize * sign
+    });
+    let lengths = lengths.collect();
+    assert_eq!(end, input);
+    lengths
+}
+
 /// A datagram of the input, explained: the same for every protocol.
 pub(super) struct Explained<'a> {
     /// Where it begins in the input.

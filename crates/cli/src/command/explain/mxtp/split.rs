@@ -151,6 +151,7 @@ const CHUNK: usize = 64 << 10;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::command::explain::part;
     use posewire_mxtp::MessageType;
     use posewire_mxtp::body::{Body, QuaternionSegment};
     use posewire_mxtp::ids::{SegmentCounts, SegmentId};
@@ -172,21 +173,8 @@ mod tests {
         bytes
     }
 
-    /// The lengths of the parts, those of skipped bytes negative.
     fn lengths(bytes: &[u8]) -> Vec<isize> {
-        let mut end = 0;
-        let parts = Parts::of(bytes).map(|part| {
-            let (offset, length, sign) = match part {
-                Part::Datagram { offset, bytes } => (offset, bytes.len(), 1),
-                Part::Skipped { offset, bytes } => (offset, bytes.len(), -1),
-            };
-            assert_eq!(offset, end);
-            end += length;
-            length as isize * sign
-        });
-        let lengths = parts.collect();
-        assert_eq!(end, bytes.len());
-        lengths
+        part::lengths(Parts::of(bytes), bytes.len())
     }
 
     #[test]

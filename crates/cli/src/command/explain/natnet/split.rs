@@ -71,22 +71,10 @@ const MAX_SIZE: usize = Packet::HEADER_SIZE + Packet::MAX_PAYLOAD;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::command::explain::part;
 
-    /// The lengths of the parts, those of skipped bytes negative.
     fn lengths(bytes: &[u8]) -> Vec<isize> {
-        let mut end = 0;
-        let parts = Parts::of(bytes).map(|part| {
-            let (offset, length, sign) = match part {
-                Part::Datagram { offset, bytes } => (offset, bytes.len(), 1),
-                Part::Skipped { offset, bytes } => (offset, bytes.len(), -1),
-            };
-            assert_eq!(offset, end);
-            end += length;
-            length as isize * sign
-        });
-        let lengths = parts.collect();
-        assert_eq!(end, bytes.len());
-        lengths
+        part::lengths(Parts::of(bytes), bytes.len())
     }
 
     #[test]
