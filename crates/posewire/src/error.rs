@@ -180,7 +180,9 @@ impl Error {
             Self::UnknownOption { known: [], .. } => Some("remove the part after the ?".into()),
             Self::UnknownOption { known, .. } => Some(format!("use {}", listed(known))),
             Self::UnknownScheme { known, .. } => Some(format!("use {}, or the path of a file", listed(known))),
-            Self::NotSupportedYet { .. } => Some("use mxtp://, mxtp+tcp://, synthetic:walk or an .mvnx file".into()),
+            Self::NotSupportedYet { .. } => {
+                Some("use mxtp://, mxtp+tcp://, natnet://, synthetic:walk or an .mvnx file".into())
+            }
             Self::Proprietary { .. } => Some("open the take in MVN, export it as MVNX and use the .mvnx file".into()),
             Self::UnknownFormat { path, .. } => Some(path_help(path)),
             Self::Resolve { host, .. } => Some(format!("check the spelling of {host:?}, or use the numeric address")),
@@ -262,6 +264,7 @@ pub(crate) fn reason(error: &io::Error) -> String {
 fn url_help(part: &str) -> String {
     match part {
         "host" | "port" | "address" => "write HOST, HOST:PORT or [IPV6]:PORT, as in mxtp://127.0.0.1:9763".into(),
+        "server" => "name the server, with the group behind it: natnet://SERVER?mode=multicast&group=GROUP".into(),
         "interface" => "name it as the system does, as in interface=eth0, or by address".into(),
         "generator" => "write synthetic:walk, as in synthetic:walk?people=2&rate=240".into(),
         "scheme" => "write mxtp://HOST:PORT, mxtp+tcp://HOST:PORT or synthetic:walk".into(),

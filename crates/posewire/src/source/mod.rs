@@ -8,10 +8,10 @@ mod walk;
 
 pub use playback::{PlaybackOptions, Preview};
 
-use crate::Result;
 use crate::endpoint::Endpoint;
 use crate::session::Outlet;
 use crate::stop::Stop;
+use crate::{Error, Result};
 use mxtp::{MxtpTcp, MxtpUdp};
 use playback::Playback;
 
@@ -40,6 +40,12 @@ impl Source {
         let kind = match endpoint {
             Endpoint::MxtpUdp(address) => Kind::MxtpUdp(MxtpUdp::open(address)?),
             Endpoint::MxtpTcp(address) => Kind::MxtpTcp(MxtpTcp::open(address)?),
+            Endpoint::NatNet(address) => {
+                return Err(Error::NotSupportedYet {
+                    endpoint: address.to_string(),
+                    what: "NatNet as a source",
+                });
+            }
             Endpoint::Synthetic(walk) => Kind::Playback(Playback::of_walk(walk, options)?),
             Endpoint::File { path, .. } => Kind::Playback(Playback::of_file(path, options)?),
         };
