@@ -19,7 +19,7 @@ use posewire_motion::Stamp;
 use crate::frame::Frame;
 use crate::model::Model;
 use crate::output::{Outputs, Socket, encode};
-use crate::{Error, Message, Output, Packet, Version};
+use crate::{Error, Message, MessageId, Output, Packet, Version};
 use clients::Clients;
 use encodings::Encodings;
 use send::frame_packet;
@@ -90,11 +90,12 @@ impl Server {
 
     /// Takes in one datagram of the command socket that arrived at `now`.
     pub fn handle(&mut self, now: Stamp, from: SocketAddr, bytes: &[u8]) {
-        if let Some(client) = self.clients.find_mut(from) {
-            client.heard = now;
-        }
         let packet = Packet::decode(bytes);
         let id = packet.as_ref().ok().map(|packet| packet.id);
+        if let Some(client) = self.clients.find_mut(from) {
+            client.heard = now;
+            client.has_spoken |= id != Some(MessageId::CONNECT);
+        }
         if let Err(error) = packet.and_then(|packet| self.take(now, from, &packet)) {
             self.outputs.event(Event::Malformed { from, id, error });
         }
