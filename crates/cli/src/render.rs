@@ -3,7 +3,7 @@
 use crate::plain::{cut, printable};
 use posewire::sink::Progress;
 use posewire::source::Preview;
-use posewire::stats::{Statistics, SubjectStatistics, TypeStatistics};
+use posewire::stats::{Statistics, StreamStatistics, SubjectStatistics};
 use std::fmt::Write;
 use std::time::Duration;
 
@@ -103,22 +103,22 @@ fn subject_table(text: &mut String, of_subject: &SubjectStatistics) {
     }
     text.push('\n');
     text.push_str(TABLE_HEAD);
-    for of_type in &of_subject.types {
-        type_row(text, of_type);
+    for stream in &of_subject.streams {
+        stream_row(text, stream);
     }
 }
 
-fn type_row(text: &mut String, of_type: &TypeStatistics) {
-    let counters = &of_type.counters;
+fn stream_row(text: &mut String, stream: &StreamStatistics) {
+    let counters = &stream.counters;
     let stride = counters
         .stride
         .map_or_else(|| "-".to_owned(), |stride| stride.to_string());
     _ = writeln!(
         text,
         "  {} {:<16} {:>6.1} {:>4} {:>7} {:>6} {:>4} {:>4} {:>3} {:>3} {:>6.1} {:>6.1}",
-        of_type.message_type,
-        cut(of_type.message_type.name(), 16),
-        of_type.rate_hz,
+        stream.kind,
+        cut(stream.kind.name(), 16),
+        stream.rate_hz,
         stride,
         counters.received,
         counters.missing,
@@ -126,10 +126,10 @@ fn type_row(text: &mut String, of_type: &TypeStatistics) {
         counters.late,
         counters.reset,
         counters.incomplete,
-        milliseconds(of_type.interval.p99),
-        milliseconds(of_type.interval.max),
+        milliseconds(stream.interval.p99),
+        milliseconds(stream.interval.max),
     );
-    for (quirk, count) in counters.quirks.iter() {
+    for (quirk, count) in &counters.quirks {
         _ = writeln!(text, "     {count} {}: {}", quirk.name(), quirk.meaning());
     }
 }

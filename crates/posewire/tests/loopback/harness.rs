@@ -3,7 +3,7 @@
 use posewire::endpoint::Endpoint;
 use posewire::sink::{MxtpSink, MxtpSinkOptions, Progress};
 use posewire::source::PlaybackOptions;
-use posewire::stats::{Statistics, TypeStatistics};
+use posewire::stats::{DatagramKind, Statistics, StreamStatistics};
 use posewire::stop::Stop;
 use posewire::{Item, Notice, Result, Session, Sink, Source};
 use posewire_motion::{Frame, Subject};
@@ -23,7 +23,7 @@ pub(crate) struct Gathered {
 
 impl Gathered {
     /// The numbers of one datagram type of one character.
-    pub(crate) fn statistics_of(&self, character: u32, message_type: MessageType) -> &TypeStatistics {
+    pub(crate) fn statistics_of(&self, character: u32, message_type: MessageType) -> &StreamStatistics {
         let statistics = self
             .statistics
             .as_ref()
@@ -32,10 +32,10 @@ impl Gathered {
             .subjects
             .iter()
             .find(|subject| subject.subject.id == character);
-        let types = &subject.expect("the character was heard").types;
-        types
+        let streams = &subject.expect("the character was heard").streams;
+        streams
             .iter()
-            .find(|of_type| of_type.message_type == message_type)
+            .find(|stream| stream.kind == DatagramKind::Mxtp(message_type))
             .expect("the type was heard")
     }
 
@@ -48,22 +48,17 @@ impl Gathered {
         assert_eq!(statistics.malformed, 0);
         assert_eq!(statistics.kernel_dropped, 0);
         assert_eq!(statistics.skipped_bytes, 0);
-        for subject in &statistics.subjects {
-            for of_type in &subject.types {
-                let counters = &of_type.counters;
-                let losses = [
-                    counters.missing,
-                    counters.duplicate,
-                    counters.late,
-                    counters.reset,
-                    counters.incomplete,
-                ];
-                assert_eq!(
-                    losses, [0; 5],
-                    "type {} of character {}",
-                    of_type.message_type, subject.subject.id
-                );
-            }
+        for (subject, stream) in statistics.streams() {
+            let counters = &stream.counters;
+            let losses = [
+                counters.missing,
+                counters.duplicate,
+                counters.late,
+                counters.reset,
+                counters.incomplete,
+            ];
+            let of = subject.map(|subject| subject.id);
+            assert_eq!(losses, [0; 5], "{} of {of:?}", stream.kind);
         }
     }
 }

@@ -158,7 +158,6 @@ pub(super) const QUEUED_ITEMS: usize = 16_384;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use posewire_motion::Stamp;
     use std::time::Duration;
 
     #[test]
@@ -171,17 +170,12 @@ mod tests {
                 .starts_with("nothing has come to mxtp://127.0.0.1:9763 yet")
         );
         let mut statistics = Statistics {
-            at: Stamp(0),
             elapsed: Duration::from_secs(3),
-            ended: false,
             datagrams: 5,
             bytes: 50,
             malformed: 5,
             last_malformed: Some("found \x1b[2J".to_owned()),
-            skipped_bytes: 0,
-            kernel_dropped: 0,
-            characters_refused: 0,
-            subjects: Vec::new(),
+            ..Statistics::default()
         };
         sink.accept(&Item::Statistics(Arc::new(statistics.clone()))).unwrap();
         assert_eq!(board.heard(), 0);

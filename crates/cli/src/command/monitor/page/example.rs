@@ -45,7 +45,7 @@ pub(super) fn trouble(view: &mut View) {
     row.incomplete = 4;
     row.malformed = 1;
     row.stride = Some(4);
-    row.quirks = vec![(Quirk::ItemCount, 240), (Quirk::PayloadSize, 99_000)];
+    row.quirks = vec![(Quirk::ItemCount.into(), 240), (Quirk::PayloadSize.into(), 99_000)];
 }
 
 /// A sample of someone in the T-pose, 1.75 m tall, at the origin.
@@ -103,7 +103,7 @@ fn type_row(message_type: MessageType) -> TypeRow {
         max: period * 2,
     };
     TypeRow {
-        message_type,
+        kind: message_type.into(),
         rate_hz: 1.0 / period.as_secs_f64(),
         stride: often.then_some(1),
         received: if often { 19_920 } else { 83 },

@@ -3,10 +3,11 @@
 use super::table::{put, slot, width};
 use super::theme::{Theme, faint};
 use super::view::{Character, State, TypeRow, View};
-use posewire_mxtp::Quirk;
+use posewire::stats::Quirk;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// Something that is wrong or unusual.
@@ -192,8 +193,13 @@ fn untracked(selected: &Character) -> Option<Problem> {
     })
 }
 
+fn found(row: &TypeRow) -> impl Iterator<Item = Quirk> {
+    row.quirks.iter().map(|(quirk, _)| *quirk)
+}
+
 fn quirks(types: &[TypeRow]) -> impl Iterator<Item = Problem> {
-    Quirk::ALL.into_iter().filter_map(|quirk| {
+    let all: BTreeSet<Quirk> = types.iter().flat_map(found).collect();
+    all.into_iter().filter_map(|quirk| {
         let of = |row: &TypeRow| {
             row.quirks
                 .iter()
@@ -215,7 +221,7 @@ fn listed<'a>(counts: impl Iterator<Item = (&'a TypeRow, u64)>) -> String {
     let mut text = String::new();
     for (row, count) in counts {
         let (between, of) = if text.is_empty() { ("", "of type") } else { (", ", "of") };
-        _ = write!(text, "{between}{count} {of} {:02}", row.message_type.number());
+        _ = write!(text, "{between}{count} {of} {}", row.kind);
     }
     text
 }
@@ -310,7 +316,7 @@ mod tests {
         assert_eq!(problems[0].weight, Weight::Bad);
         let said = |part: &str| problems.iter().any(|problem| problem.text.contains(part));
         assert!(said("missing 12 of type 02"));
-        assert!(said(Quirk::ItemCount.meaning()));
+        assert!(said(posewire_mxtp::Quirk::ItemCount.meaning()));
         assert!(said("one sample in 4"));
     }
 

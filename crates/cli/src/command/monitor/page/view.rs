@@ -1,8 +1,9 @@
 //! What the page shows at one moment, as plain data.
 
 use posewire::histogram::Summary;
+use posewire::stats::{DatagramKind, Quirk};
 use posewire_motion::{Frame, Subject, Timecode};
-use posewire_mxtp::{MessageType, Quirk};
+use posewire_mxtp::MessageType;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -50,7 +51,7 @@ pub(super) struct Character {
 /// One datagram type of a character.
 #[derive(Clone, Debug)]
 pub(super) struct TypeRow {
-    pub(super) message_type: MessageType,
+    pub(super) kind: DatagramKind,
     pub(super) rate_hz: f64,
     pub(super) stride: Option<u32>,
     pub(super) received: u64,
@@ -105,7 +106,7 @@ impl Character {
     }
 
     pub(super) fn has_type(&self, message_type: MessageType) -> bool {
-        self.types.iter().any(|row| row.message_type == message_type)
+        self.types.iter().any(|row| row.kind == message_type.into())
     }
 }
 

@@ -3,7 +3,7 @@
 use super::super::board::Board;
 use super::super::silence::QUIET_AFTER;
 use super::view::{Character, Troubles, TypeRow, View};
-use posewire::stats::{Statistics, SubjectStatistics, TypeStatistics};
+use posewire::stats::{Statistics, StreamStatistics, SubjectStatistics};
 use posewire_motion::Frame;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -101,7 +101,7 @@ fn described_character(of_subject: &SubjectStatistics) -> Character {
         frame: None,
         age: Duration::ZERO,
         timecode: of_subject.timecode,
-        types: of_subject.types.iter().map(type_row).collect(),
+        types: of_subject.streams.iter().map(type_row).collect(),
     }
 }
 
@@ -115,11 +115,11 @@ fn bare_character(frame: &Arc<Frame>) -> Character {
     }
 }
 
-fn type_row(of_type: &TypeStatistics) -> TypeRow {
-    let counters = &of_type.counters;
+fn type_row(stream: &StreamStatistics) -> TypeRow {
+    let counters = &stream.counters;
     TypeRow {
-        message_type: of_type.message_type,
-        rate_hz: of_type.rate_hz,
+        kind: stream.kind,
+        rate_hz: stream.rate_hz,
         stride: counters.stride,
         received: counters.received,
         missing: counters.missing,
@@ -128,8 +128,8 @@ fn type_row(of_type: &TypeStatistics) -> TypeRow {
         reset: counters.reset,
         incomplete: counters.incomplete,
         malformed: counters.malformed,
-        quirks: counters.quirks.iter().collect(),
-        interval: of_type.interval,
+        quirks: counters.quirks.clone(),
+        interval: stream.interval,
     }
 }
 
@@ -150,7 +150,6 @@ mod tests {
     use super::*;
     use posewire::stop::Stop;
     use posewire::{Item, Sink};
-    use posewire_motion::Stamp;
 
     fn board() -> Board {
         Board::new(&"mxtp://127.0.0.1:9763".parse().unwrap(), None, Stop::new())
@@ -163,17 +162,10 @@ mod tests {
 
     fn statistics(seconds: u64, datagrams: u64, bytes: u64) -> Item {
         Item::Statistics(Arc::new(Statistics {
-            at: Stamp(0),
             elapsed: Duration::from_secs(seconds),
-            ended: false,
             datagrams,
             bytes,
-            malformed: 0,
-            last_malformed: None,
-            skipped_bytes: 0,
-            kernel_dropped: 0,
-            characters_refused: 0,
-            subjects: Vec::new(),
+            ..Statistics::default()
         }))
     }
 
