@@ -140,6 +140,11 @@ impl Server {
         Ok(())
     }
 
+    /// Changes how many frames a second those who ask are told.
+    pub const fn set_frame_rate(&mut self, frame_rate: f32) {
+        self.options.frame_rate = frame_rate;
+    }
+
     /// Sends a frame to all who get frames, each in its version; it is encoded once for every layout.
     ///
     /// # Errors

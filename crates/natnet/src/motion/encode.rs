@@ -57,6 +57,11 @@ impl Encoder {
         !Arc::ptr_eq(&before, subject) && before != *subject
     }
 
+    /// Whether this very subject is known, as the last one of its number and name.
+    pub fn knows(&self, subject: &Arc<Subject>) -> bool {
+        self.subjects.iter().any(|known| Arc::ptr_eq(known, subject))
+    }
+
     /// The descriptions of all subjects known so far.
     pub fn model(&self) -> Model {
         let described = self.subjects.iter().zip(1..);
