@@ -142,10 +142,20 @@ pub enum Error {
         found: String,
     },
     /// An endpoint that motion cannot be sent to.
-    #[error("{endpoint}: motion cannot be sent there, expected mxtp://HOST:PORT or mxtp+tcp://HOST:PORT")]
+    #[error(
+        "{endpoint}: motion cannot be sent there, expected mxtp://HOST:PORT, mxtp+tcp://HOST:PORT or natnet://HOST"
+    )]
     NotATarget {
         /// The endpoint.
         endpoint: String,
+    },
+    /// More subjects than a NatNet server can describe.
+    #[error("the descriptions of {subjects} subjects do not fit into one NatNet datagram: {error}")]
+    Descriptions {
+        /// How many subjects there are.
+        subjects: usize,
+        /// How large their descriptions are.
+        error: posewire_natnet::Error,
     },
     /// More subjects than character numbers.
     #[error("expected a character number from 0 to 255, found {found}")]
@@ -187,13 +197,16 @@ impl Error {
             Self::UnknownFormat { path, .. } => Some(path_help(path)),
             Self::Resolve { host, .. } => Some(format!("check the spelling of {host:?}, or use the numeric address")),
             Self::Interface { available, .. } => Some(format!("this machine has: {}", available.join(", "))),
-            Self::Socket { address, kind, .. } => socket_help(address, *kind),
+            Self::Socket {
+                action, address, kind, ..
+            } => socket_help(action, address, *kind),
             Self::Stalled { peer, .. } => Some(format!("check that the program at {peer} reads its connection")),
             Self::Read { kind, .. } => read_help(*kind),
             Self::Take { error, .. } => Some(take_help(error).into()),
             Self::NoFrames { .. } => Some("posewire inspect says what it holds; export it again from MVN".into()),
             Self::Rate { .. } => Some("leave --rate out to send every sample".into()),
             Self::NotATarget { .. } => Some("give a network address, as in --to mxtp://127.0.0.1:9763".into()),
+            Self::Descriptions { .. } => Some("stream fewer people to NatNet".into()),
             Self::Character { .. } => Some("start at a lower --character, or stream fewer people".into()),
             Self::Write { .. } => Some("make room there, or send the output elsewhere".into()),
             Self::Speed { .. } => Some("1 is real time, 0.5 half as fast".into()),
@@ -242,6 +255,11 @@ impl Error {
                 | Self::Speed { .. }
         )
     }
+
+    /// What a NatNet server's command port is bound for.
+    pub(crate) const SERVE_COMMANDS: &str = "serve NatNet commands on";
+    /// What a NatNet server's data port is bound for.
+    pub(crate) const SERVE_FRAMES: &str = "send NatNet frames from";
 
     /// The refusal of `action` ("listen on", "send to" ...) on `address` by the system.
     pub(crate) fn socket(action: &'static str, address: String, error: &io::Error) -> Self {
@@ -307,9 +325,17 @@ fn read_help(kind: io::ErrorKind) -> Option<String> {
     }
 }
 
-fn socket_help(address: &str, kind: io::ErrorKind) -> Option<String> {
+fn socket_help(action: &str, address: &str, kind: io::ErrorKind) -> Option<String> {
     let place = address.split_once(' ').map_or(address, |(_, place)| place);
     let text = match kind {
+        io::ErrorKind::AddrInUse if action == Error::SERVE_COMMANDS => {
+            format!(
+                "another program, such as Motive, has {place}: stop it, or choose another port as in natnet://HOST:1520"
+            )
+        }
+        io::ErrorKind::AddrInUse if action == Error::SERVE_FRAMES => {
+            format!("another program has {place}: stop it, or choose another port as in natnet://HOST?data-port=1521")
+        }
         io::ErrorKind::AddrInUse => {
             format!("another program listens on {place}: stop it or choose another port")
         }

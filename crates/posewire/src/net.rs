@@ -24,6 +24,7 @@ mod resolve;
 mod tcp;
 mod udp_receive;
 mod udp_send;
+mod udp_serve;
 
 pub use backoff::Backoff;
 pub use resolve::resolve;
@@ -31,3 +32,4 @@ pub(crate) use tcp::connect_to;
 pub use tcp::{TcpConnection, TcpIncoming, connect, listen};
 pub use udp_receive::{Received, UdpReceiver};
 pub use udp_send::{SendCounts, UdpSender};
+pub(crate) use udp_serve::{Sent, ServedPort};

@@ -1,8 +1,12 @@
 //! Where frames go.
 
 mod mxtp;
+mod natnet;
+mod progress;
 
-pub use mxtp::{MxtpSink, MxtpSinkOptions, Progress, TargetProgress};
+pub use mxtp::{MxtpSink, MxtpSinkOptions};
+pub use natnet::{NatNetSink, NatNetSinkOptions};
+pub use progress::{ClientProgress, ClientState, Progress, TargetProgress};
 
 use crate::queue::Policy;
 use crate::{Item, Result};

@@ -1,12 +1,9 @@
 //! MXTP to the network, as MVN's Network Streamer sends it.
 
-mod progress;
 mod target;
 mod tcp;
 
-pub use progress::{Progress, TargetProgress};
-
-use super::Sink;
+use super::{Progress, Sink, TargetProgress};
 use crate::endpoint::Endpoint;
 use crate::histogram::DurationHistogram;
 use crate::stop::Stop;
