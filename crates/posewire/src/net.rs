@@ -21,6 +21,7 @@
 mod backoff;
 mod interface;
 mod resolve;
+mod route;
 mod tcp;
 mod udp_receive;
 mod udp_send;
@@ -28,6 +29,8 @@ mod udp_serve;
 
 pub use backoff::Backoff;
 pub use resolve::resolve;
+pub(crate) use resolve::resolve_first;
+pub(crate) use route::{LocalAddress, broadcast_addresses, is_own};
 pub(crate) use tcp::connect_to;
 pub use tcp::{TcpConnection, TcpIncoming, connect, listen};
 pub use udp_receive::{Received, UdpReceiver};
