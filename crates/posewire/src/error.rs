@@ -75,6 +75,12 @@ pub enum Error {
         /// What the system's resolver says.
         reason: String,
     },
+    /// Several servers where one was to be found.
+    #[error("expected one NatNet server, found {}: {}", found.len(), found.join(", "))]
+    SeveralServers {
+        /// Each of them, as `Motive at 10.0.0.5:1510`.
+        found: Vec<String>,
+    },
     /// A network interface that is not there, or lacks an address of the needed kind.
     #[error("network interface {name:?} {problem}")]
     Interface {
@@ -196,6 +202,7 @@ impl Error {
             Self::Proprietary { .. } => Some("open the take in MVN, export it as MVNX and use the .mvnx file".into()),
             Self::UnknownFormat { path, .. } => Some(path_help(path)),
             Self::Resolve { host, .. } => Some(format!("check the spelling of {host:?}, or use the numeric address")),
+            Self::SeveralServers { .. } => Some("name one of them, as in natnet://HOST:1510".into()),
             Self::Interface { available, .. } => Some(format!("this machine has: {}", available.join(", "))),
             Self::Socket {
                 action, address, kind, ..

@@ -7,12 +7,14 @@
 mod arrivals;
 mod kind;
 mod mxtp;
+mod natnet;
 mod server;
 
 pub use kind::{DatagramKind, Quirk};
 pub use server::{Clock, Latencies, ModelCounts, ServerStatistics};
 
 pub(crate) use mxtp::{Edge, Tally};
+pub(crate) use natnet::{Link, NatNetTally};
 
 use std::sync::Arc;
 use std::time::Duration;

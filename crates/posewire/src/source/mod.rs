@@ -2,17 +2,20 @@
 
 mod file;
 mod mxtp;
+mod natnet;
 mod playback;
+mod report;
 pub mod synthetic;
 mod walk;
 
 pub use playback::{PlaybackOptions, Preview};
 
+use crate::Result;
 use crate::endpoint::Endpoint;
 use crate::session::Outlet;
 use crate::stop::Stop;
-use crate::{Error, Result};
 use mxtp::{MxtpTcp, MxtpUdp};
+use natnet::NatNet;
 use playback::Playback;
 
 /// Where frames come from: opened, and not yet running.
@@ -27,6 +30,7 @@ pub struct Source {
 enum Kind {
     MxtpUdp(MxtpUdp),
     MxtpTcp(MxtpTcp),
+    NatNet(Box<NatNet>),
     Playback(Playback),
 }
 
@@ -40,18 +44,14 @@ impl Source {
         let kind = match endpoint {
             Endpoint::MxtpUdp(address) => Kind::MxtpUdp(MxtpUdp::open(address)?),
             Endpoint::MxtpTcp(address) => Kind::MxtpTcp(MxtpTcp::open(address)?),
-            Endpoint::NatNet(address) => {
-                return Err(Error::NotSupportedYet {
-                    endpoint: address.to_string(),
-                    what: "NatNet as a source",
-                });
-            }
+            Endpoint::NatNet(address) => Kind::NatNet(Box::new(NatNet::open(address)?)),
             Endpoint::Synthetic(walk) => Kind::Playback(Playback::of_walk(walk, options)?),
             Endpoint::File { path, .. } => Kind::Playback(Playback::of_file(path, options)?),
         };
         let endpoint = match &kind {
             Kind::MxtpUdp(source) => source.endpoint(),
             Kind::MxtpTcp(source) => source.endpoint(),
+            Kind::NatNet(source) => source.endpoint(),
             Kind::Playback(_) => endpoint.clone(),
         };
         Ok(Self { endpoint, kind })
@@ -82,6 +82,7 @@ impl Source {
                 source.run(outlet, stop);
                 Ok(())
             }
+            Kind::NatNet(source) => source.run(outlet, stop),
             Kind::Playback(playback) => playback.run(outlet, stop),
         }
     }
