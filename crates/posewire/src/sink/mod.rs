@@ -6,7 +6,7 @@ mod progress;
 
 pub use mxtp::{MxtpSink, MxtpSinkOptions};
 pub use natnet::{NatNetSink, NatNetSinkOptions};
-pub use progress::{ClientProgress, ClientState, Progress, TargetProgress};
+pub use progress::{ClientProgress, ClientState, LeftOut, Progress, TargetProgress};
 
 use crate::queue::Policy;
 use crate::{Item, Result};

@@ -13,6 +13,17 @@ pub struct Progress {
     pub lateness: Summary,
     /// Each target, in the order given.
     pub targets: Vec<TargetProgress>,
+    /// What of the source cannot be sent, each once.
+    pub left_out: Vec<LeftOut>,
+}
+
+/// Something of the source that cannot be sent.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LeftOut {
+    /// What it is.
+    pub what: String,
+    /// Why it cannot, in words that fit behind a colon.
+    pub why: &'static str,
 }
 
 impl Progress {
@@ -36,6 +47,7 @@ impl Progress {
             self.lateness = other.lateness;
         }
         self.targets.extend(other.targets);
+        self.left_out.extend(other.left_out);
         self
     }
 }
@@ -106,6 +118,7 @@ mod tests {
                 congested,
                 ..TargetProgress::default()
             }],
+            left_out: Vec::new(),
         };
         let all = Progress::of_all([progress(240, 3, "mxtp://a", 1), progress(238, 5, "natnet://b", 2)]);
         let endpoints: Vec<_> = all.targets.iter().map(|target| target.endpoint.as_str()).collect();

@@ -7,14 +7,15 @@ use super::ports::Ports;
 use crate::clock::Clock;
 use crate::endpoint::{Endpoint, NatNetAddress};
 use crate::histogram::DurationHistogram;
-use crate::sink::{ClientState, Progress};
+use crate::sink::{ClientState, LeftOut, Progress};
 use crate::{Error, Result};
-use posewire_motion::{Stamp, Subject};
+use posewire_motion::{Frame, Stamp, Subject};
 use posewire_natnet::client::Mode;
 use posewire_natnet::frame::HostStamps;
-use posewire_natnet::motion::{Encoder, Settings};
+use posewire_natnet::motion::{Encoder, Settings, lacks};
 use posewire_natnet::server::{Delivery, Event, LeftReason, Server, ServerOptions};
 use posewire_natnet::{Output, Socket, Transmit};
+use std::collections::BTreeSet;
 use std::net::SocketAddr;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -34,6 +35,8 @@ pub(super) struct Serving {
     lateness: DurationHistogram,
     progress: Arc<Mutex<Progress>>,
     next_summary: Instant,
+    /// Subjects of which a frame has been looked at.
+    seen: BTreeSet<u32>,
 }
 
 impl Serving {
@@ -62,6 +65,7 @@ impl Serving {
             lateness: DurationHistogram::new(),
             progress: Arc::default(),
             next_summary: Instant::now(),
+            seen: BTreeSet::new(),
         };
         serving.publish();
         serving
@@ -105,6 +109,7 @@ impl Serving {
     /// Takes one frame; sends the packet that it completes, and before that the one that it ends.
     pub(super) fn take(&mut self, share: Share) -> Result<()> {
         self.describe_changed(&share.frame.subject)?;
+        self.tell_left_out(&share.frame);
         if self.gathering.is_ended_by(&share.frame) {
             self.send()?;
         }
@@ -151,6 +156,22 @@ impl Serving {
             Ok(())
         } else {
             self.describe(subject)
+        }
+    }
+
+    /// Tells once what of a subject's first frame NatNet has no place for.
+    fn tell_left_out(&mut self, frame: &Frame) {
+        if !self.seen.insert(frame.subject.id) {
+            return;
+        }
+        let mut progress = self.progress.lock().unwrap_or_else(PoisonError::into_inner);
+        for what in lacks(frame) {
+            if !progress.left_out.iter().any(|known| known.what == what) {
+                progress.left_out.push(LeftOut {
+                    what: what.to_owned(),
+                    why: "NatNet has no place for it",
+                });
+            }
         }
     }
 
