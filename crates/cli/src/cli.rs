@@ -19,6 +19,10 @@ Where motion comes from and goes to:
                             a multicast group is joined; ?interface=eth0 says where, ?ttl=4 how far
   mxtp+tcp://HOST[:9763]    MXTP over TCP; stream connects and monitor listens, as with MVN
                             ?mode=listen and ?mode=connect turn that round
+  natnet://HOST[:1510]      NatNet, as Motive serves it; as a target, be Motive: natnet://0.0.0.0
+                            ?mode=multicast sends to a group; ?version=3.1 asks for a bitstream, or sends
+                            no newer one; also data-port, group, interface, up=z, skeleton=local,
+                            and of a target copy=true for clients that listen only at the data port
   synthetic:walk            people made up on the spot, or with all that can be said of them:
                             \"synthetic:walk?people=2&rate=240&props=1&fingers=true\"
   take.mvnx, take.mvnx.gz   a take exported from MVN
@@ -38,7 +42,7 @@ pub(crate) enum Command {
     Demo(Demo),
 }
 
-/// Send a take, a walker or a live stream as MVN's Network Streamer would.
+/// Send a take, a walker or a live stream as MVN's Network Streamer would, or as Motive.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -46,7 +50,13 @@ Examples:
   posewire stream take.mvnx --to mxtp://192.168.1.20 --loop
   posewire stream take.mvnx --to mxtp+tcp://robot --types all
   posewire stream \"synthetic:walk?people=3\" --to \"mxtp://239.255.42.99?interface=eth0\"
-  posewire stream mxtp://0.0.0.0 --to mxtp://10.0.0.5 --to mxtp+tcp://10.0.0.6   pass on a live stream")]
+  posewire stream mxtp://0.0.0.0 --to mxtp://10.0.0.5 --to mxtp+tcp://10.0.0.6   pass on a live stream
+  posewire stream take.mvnx --to natnet://0.0.0.0            be Motive to NatNet clients
+  posewire stream take.mvnx --to \"natnet://0.0.0.0?mode=multicast&interface=eth0\"
+  posewire stream natnet://10.0.0.7 --to mxtp://10.0.0.5     Motive's skeletons as MVN's characters
+
+A take begins when somebody has connected, where all targets are such that somebody has to. --types, --character,
+--revision and --split are for MXTP targets.")]
 pub(crate) struct Stream {
     /// What to send: a take, synthetic:walk, or a live stream to pass on.
     pub(crate) source: String,
@@ -55,7 +65,7 @@ pub(crate) struct Stream {
     #[arg(long, value_name = "URL", default_value = "mxtp://127.0.0.1:9763")]
     pub(crate) to: Vec<String>,
 
-    /// Datagram types, by number and with commas, or `all`.
+    /// Datagram types for MXTP targets, by number and with commas, or `all`.
     ///
     /// 01 Euler, 02 quaternion, 03 points, 05 Unity, 12 meta, 13 scale, 20 joint angles, 21 linear and 22 angular
     /// kinematics, 23 trackers, 24 centre of mass, 25 timecode. What a take lacks is computed where that is possible.
@@ -65,7 +75,7 @@ pub(crate) struct Stream {
     #[command(flatten)]
     pub(crate) playback: Playback,
 
-    /// The number of the first character, from 0; MVN shows it plus one.
+    /// The number of the first MXTP character, from 0; MVN shows it plus one.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) character: u8,
 
@@ -73,13 +83,17 @@ pub(crate) struct Stream {
     #[arg(long, value_name = "NAME")]
     pub(crate) name: Option<String>,
 
-    /// The revision of the header: N is MVN 2019 and later, J what was before.
+    /// The revision of the MXTP header: N is MVN 2019 and later, J what was before.
     #[arg(long, value_enum, ignore_case = true, default_value = "n")]
     pub(crate) revision: Revision,
 
-    /// Split pose data into datagrams of at most so many bytes. MVN does not, and some receivers cannot take it.
+    /// Split MXTP pose data into datagrams of at most so many bytes. MVN does not, and some receivers cannot take it.
     #[arg(long, value_name = "BYTES", value_parser = clap::value_parser!(u32).range(100..=65_507))]
     pub(crate) split: Option<u32>,
+
+    /// Begin at once, also when nobody has connected yet.
+    #[arg(long)]
+    pub(crate) no_wait: bool,
 
     /// Print the numbers at the end as one JSON object.
     #[arg(long)]

@@ -1,7 +1,7 @@
 //! Results as people read them.
 
 use crate::plain::{cut, printable};
-use posewire::sink::Progress;
+use posewire::sink::{ClientProgress, Progress};
 use posewire::source::Preview;
 use posewire::stats::{Statistics, StreamStatistics, SubjectStatistics};
 use std::fmt::Write;
@@ -56,8 +56,17 @@ pub(crate) fn stream_summary(progress: &Progress, unsent: u64) -> String {
                 _ = write!(text, ", {count} {what}");
             }
         }
+        target.clients.iter().for_each(|client| client_line(&mut text, client));
     }
     text
+}
+
+fn client_line(text: &mut String, client: &ClientProgress) {
+    let ClientProgress { address, version, .. } = client;
+    _ = write!(text, "\n    {address}, NatNet {version}: {} frames", client.frames);
+    if client.dropped > 0 {
+        _ = write!(text, ", {} not sent: nobody there, or no room", client.dropped);
+    }
 }
 
 /// The table of a live stream: a line for each character and datagram type.

@@ -37,7 +37,7 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
     let progress = sinks.progress();
     announce(&source, sinks.types, &progress.read());
     let mut peers = Peers::of(&progress.read());
-    if !source.is_live() && !sinks.is_ready() {
+    if !source.is_live() && !arguments.no_wait && !sinks.is_ready() {
         say("waiting for somebody to connect");
         sinks.wait_until_ready(&stop);
     }

@@ -1,12 +1,13 @@
-//! Who comes and goes while a stream runs.
+//! What people are told while a stream runs: who comes and goes, and what cannot be sent.
 
 use crate::context::{end_progress, say};
 use crate::plain::{plural, printable};
-use posewire::sink::{ClientProgress, ClientState, Progress, TargetProgress};
+use posewire::sink::{ClientProgress, ClientState, LeftOut, Progress, TargetProgress};
 
-/// Who is known to be there.
+/// Who is known to be there, and what is known to be left out.
 pub(super) struct Peers {
     known: Vec<TargetProgress>,
+    left_out: Vec<LeftOut>,
 }
 
 impl Peers {
@@ -14,18 +15,38 @@ impl Peers {
     pub(super) fn of(progress: &Progress) -> Self {
         Self {
             known: progress.targets.clone(),
+            left_out: Vec::new(),
         }
     }
 
-    /// Says who has come or gone since the last time.
+    /// Says what has happened since the last time.
     pub(super) fn tell(&mut self, progress: &Progress) {
-        let lines = self.known.iter().zip(&progress.targets).flat_map(changes);
-        for line in lines {
+        let peers = self.known.iter().zip(&progress.targets).flat_map(changes);
+        let new: Vec<_> = progress
+            .left_out
+            .iter()
+            .filter(|entry| !self.left_out.contains(entry))
+            .collect();
+        for line in peers.chain(left_out(&new)) {
             end_progress();
             say(line);
         }
         self.known.clone_from(&progress.targets);
+        self.left_out.clone_from(&progress.left_out);
     }
+}
+
+/// A line for each reason.
+fn left_out(entries: &[&LeftOut]) -> Vec<String> {
+    let mut reasons: Vec<_> = entries.iter().map(|entry| entry.why).collect();
+    reasons.sort_unstable();
+    reasons.dedup();
+    let line = |why: &&str| {
+        let all = entries.iter().filter(|entry| entry.why == *why);
+        let what: Vec<_> = all.map(|entry| printable(&entry.what)).collect();
+        format!("left out: {}: {why}", what.join(", "))
+    };
+    reasons.iter().map(line).collect()
 }
 
 /// What has changed at a target, a line each.
@@ -89,6 +110,24 @@ mod tests {
         assert_eq!(
             told(Some(&gone), &newer),
             "10.0.0.2:5000 (ROS) connected, gets NatNet 3.1"
+        );
+    }
+
+    #[test]
+    fn what_is_left_out_is_told_in_a_line_for_each_reason() {
+        let entry = |what: &str, why| LeftOut {
+            what: what.to_owned(),
+            why,
+        };
+        let entries = [
+            entry("velocities", "no place"),
+            entry("T12", "not there"),
+            entry("contacts", "no place"),
+        ];
+        let lines = left_out(&entries.iter().collect::<Vec<_>>());
+        assert_eq!(
+            lines,
+            ["left out: velocities, contacts: no place", "left out: T12: not there"]
         );
     }
 }

@@ -89,6 +89,7 @@ fn mxtp_options(arguments: &Stream, source: &Source, targets: &[Endpoint]) -> an
         split: arguments.split.map(|bytes| bytes as usize),
         character: arguments.character,
         name: arguments.name.clone(),
+        fit: matches!(source.endpoint(), Endpoint::NatNet(_)),
     };
     refuse::too_many(source, &options)?;
     Ok(Some(options))
