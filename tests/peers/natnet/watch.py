@@ -11,6 +11,7 @@ import sys
 import threading
 import time
 
+import sockets
 from take import Take
 
 # Quaternions have six decimals in the file and are made unit on the way.
@@ -45,6 +46,7 @@ class Watch:
         now = time.monotonic()
         if self._end is None:
             self._end = now + self.arguments.seconds
+            sockets.widen()
             self.begun.set()
         if not self.done.is_set():
             self.frames.append((number, bodies, markers, marker_sets))
@@ -67,8 +69,10 @@ class Watch:
 
     def report(self, version):
         """Prints the report and ends the process, whatever the client's threads do."""
+        dropped = sockets.dropped()
         numbers = [frame[0] for frame in self.frames]
-        steps = [after - before for before, after in zip(numbers, numbers[1:])]
+        pairs = list(zip(numbers, numbers[1:]))
+        steps = [after - before for before, after in pairs]
         wrong = [fault for frame in self.frames for fault in self._faults(*frame)]
         report = {
             "version": version,
@@ -77,6 +81,8 @@ class Watch:
             "last": max(numbers, default=None),
             "passed_over": self.passed_over,
             "missing": sum(step - 1 for step in steps if step > 1) - self.passed_over,
+            "dropped": dropped,
+            "gaps": [pair for pair, step in zip(pairs, steps) if step > 1],
             "repeated": sum(step < 1 for step in steps),
             "positions": sum(len(frame[1]) + len(frame[2]) for frame in self.frames),
             "wrong": len(wrong),

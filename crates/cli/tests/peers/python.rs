@@ -24,7 +24,7 @@ impl Python {
         let missing = fs::read_to_string(place.join("missing"))
             .map_err(|_| Failure::Absent("tests/peers/install has not been run".to_owned()))?;
         let mut lines = missing.lines().filter_map(|line| line.split_once(": "));
-        match lines.find(|(name, _)| *name == package || *name == "all") {
+        match lines.find(|(name, _)| *name == package || *name == "everything") {
             None => Ok(Self(place.join("venv/bin/python"))),
             Some((_, reason)) => Err(Failure::Absent(format!("{package} cannot be installed: {reason}"))),
         }
@@ -36,6 +36,7 @@ impl Python {
     /// How the script failed.
     pub(crate) fn run(&self, script: &str, arguments: &[&str]) -> Result<serde_json::Value, Failure> {
         let output = Command::new(&self.0)
+            .arg("-Bs")
             .arg(root().join("tests/peers").join(script))
             .args(arguments)
             .output()
