@@ -111,6 +111,8 @@ impl Fit {
             fitted.markers.clone_from(&frame.markers);
         }
         complete(&mut fitted);
+        // Without a velocity, which takes another sample, its datagram would be shorter than receivers know it.
+        fitted.center_of_mass = None;
         fitted
     }
 
