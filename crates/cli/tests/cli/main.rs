@@ -4,6 +4,7 @@ mod demo;
 mod explain;
 mod inspect;
 mod monitor;
+mod natnet;
 #[cfg(unix)]
 mod page;
 mod program;
