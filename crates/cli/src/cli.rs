@@ -55,8 +55,8 @@ Examples:
   posewire stream take.mvnx --to \"natnet://0.0.0.0?mode=multicast&interface=eth0\"
   posewire stream natnet://10.0.0.7 --to mxtp://10.0.0.5     Motive's skeletons as MVN's characters
 
-A take begins when somebody has connected, where all targets are such that somebody has to. --types, --character,
---revision and --split are for MXTP targets.")]
+A take begins when somebody has connected, unless there is a target to which nobody has to connect.
+--types, --character, --revision and --split are for MXTP targets.")]
 pub(crate) struct Stream {
     /// What to send: a take, synthetic:walk, or a live stream to pass on.
     pub(crate) source: String,
