@@ -67,6 +67,9 @@ pub struct Server {
     models: Encodings,
     /// Frames that are still to say that the descriptions have changed.
     announcements: u32,
+    /// Whether the last frame said so, and whether the next one must not: clients heed the bit when it appears.
+    announced: bool,
+    pauses: bool,
     /// Who asked for a single frame, in which version.
     single_frames: Vec<(SocketAddr, Version)>,
     outputs: Outputs<Event>,
@@ -83,6 +86,8 @@ impl Server {
             },
             models: Encodings::new(),
             announcements: 0,
+            announced: false,
+            pauses: false,
             single_frames: Vec::new(),
             outputs: Outputs::new(),
         }
@@ -137,6 +142,7 @@ impl Server {
         }
         self.models.clear();
         self.announcements = ANNOUNCEMENTS;
+        self.pauses = self.announced;
         Ok(())
     }
 
@@ -150,8 +156,7 @@ impl Server {
     /// # Errors
     /// [`Error::TooLarge`] when the frame is too large in one of the versions; the others are sent.
     pub fn send_frame(&mut self, frame: &Frame) -> Result<(), Error> {
-        let announce = self.announcements > 0;
-        self.announcements = self.announcements.saturating_sub(1);
+        let announce = self.announces();
         let mut encodings = Encodings::new();
         let mut result = Ok(());
         for (to, version) in self.destinations() {
@@ -161,6 +166,14 @@ impl Server {
             }
         }
         result
+    }
+
+    /// Whether the next frame says that the descriptions have changed.
+    fn announces(&mut self) -> bool {
+        self.announced = self.announcements > 0 && !self.pauses;
+        self.announcements -= u32::from(self.announced);
+        self.pauses = false;
+        self.announced
     }
 
     /// Sends a line for the log to every client (unicast).
