@@ -3,7 +3,7 @@
 use posewire::endpoint::Endpoint;
 use posewire::sink::{MxtpSink, MxtpSinkOptions, Progress};
 use posewire::source::PlaybackOptions;
-use posewire::stats::{DatagramKind, Statistics, StreamStatistics};
+use posewire::stats::{DatagramKind, ServerStatistics, Statistics, StreamStatistics};
 use posewire::stop::Stop;
 use posewire::{Item, Notice, Result, Session, Sink, Source};
 use posewire_motion::{Frame, Subject};
@@ -22,6 +22,15 @@ pub(crate) struct Gathered {
 }
 
 impl Gathered {
+    /// The numbers of the server that it came from.
+    pub(crate) fn server(&self) -> ServerStatistics {
+        let statistics = self
+            .statistics
+            .as_ref()
+            .expect("a receiver gives statistics when it ends");
+        ServerStatistics::clone(statistics.server.as_ref().expect("the server has answered"))
+    }
+
     /// The numbers of one datagram type of one character.
     pub(crate) fn statistics_of(&self, character: u32, message_type: MessageType) -> &StreamStatistics {
         let statistics = self
@@ -70,6 +79,13 @@ pub(crate) struct Gatherer(Arc<(Mutex<Gathered>, Condvar)>);
 impl Gatherer {
     pub(crate) fn lock(&self) -> MutexGuard<'_, Gathered> {
         self.0.0.lock().unwrap()
+    }
+
+    /// Waits no longer than `time` until what was gathered is enough; whether it is.
+    pub(crate) fn comes_within(&self, time: Duration, enough: impl Fn(&Gathered) -> bool) -> bool {
+        let waiting = |gathered: &mut Gathered| !enough(gathered);
+        let (_gathered, timeout) = self.0.1.wait_timeout_while(self.lock(), time, waiting).unwrap();
+        !timeout.timed_out()
     }
 
     /// Waits until what was gathered is enough; fails when it is not in a generous time.

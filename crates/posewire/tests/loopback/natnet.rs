@@ -1,0 +1,6 @@
+//! NatNet over the loopback, from a server that the tests drive frame by frame to a source.
+
+mod connection;
+mod contents;
+mod finding;
+mod motive;

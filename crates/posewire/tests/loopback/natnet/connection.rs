@@ -1,0 +1,102 @@
+//! Servers that vanish, send elsewhere or send nonsense.
+
+use super::motive::{Motive, Sockets, bodies, frame, of_version};
+use posewire::Notice;
+use posewire_natnet::Version;
+use posewire_natnet::server::{Delivery, ServerOptions};
+use std::net::UdpSocket;
+
+fn has_remark(notices: &[Notice], part: &str) -> bool {
+    let mut remarks = notices.iter().map(ToString::to_string);
+    remarks.any(|remark| remark.contains(part))
+}
+
+#[test]
+fn a_server_that_vanishes_is_told_of_and_heard_again_when_it_is_back() {
+    let motive = Motive::unicast(Version::new(3, 1), bodies(&["Wand"]));
+    let at = motive.command();
+    let receiver = motive.connect("");
+    motive.send_to(&receiver, &frame(1), 1);
+    drop(motive);
+    let is_lost = |notice: &Notice| matches!(notice, Notice::Disconnected { .. });
+    receiver
+        .gatherer
+        .wait_until(|gathered| gathered.notices.iter().any(is_lost));
+
+    let motive = Sockets::bind_at(at).serve(of_version(Version::new(4, 1)), bodies(&["Wand"]));
+    let is_there = |notice: &&Notice| matches!(notice, Notice::Connected { .. });
+    motive.send_until(&receiver, 2, |gathered| {
+        gathered.notices.iter().filter(is_there).count() == 2 && gathered.frames.len() > 1
+    });
+    let gathered = receiver.stop();
+    let told: Vec<_> = gathered.notices.iter().map(ToString::to_string).collect();
+    let expected = [
+        format!("connected to Motive 3.1, NatNet 3.1, at {at}"),
+        format!("lost the connection to Motive 3.1, NatNet 3.1, at {at}: nothing comes from it any more"),
+        format!("connected to Motive 3.1, NatNet 4.1, at {at}"),
+    ];
+    assert_eq!(told, expected);
+    assert_eq!(gathered.frames.last().unwrap().subject.name, "Wand");
+    assert_eq!(gathered.subjects.len(), 1, "the same subject goes on");
+}
+
+#[test]
+fn frames_that_go_to_the_data_port_of_the_client_are_found_there() {
+    let free = UdpSocket::bind("0.0.0.0:0").unwrap();
+    let data_port = free.local_addr().unwrap().port();
+    let mut sockets = Sockets::bind();
+    sockets.redirected = Some(([127, 0, 0, 1], data_port).into());
+    drop(free);
+    let options = ServerOptions {
+        data_port,
+        ..of_version(Version::new(4, 1))
+    };
+    let motive = sockets.serve(options, bodies(&["Wand"]));
+    let receiver = motive.connect("");
+    motive.send_until(&receiver, 1, |gathered| gathered.frames.len() >= 3);
+    let gathered = receiver.stop();
+    assert_eq!(gathered.server().frames.counters.duplicate, 0);
+}
+
+#[test]
+fn a_server_that_multicasts_is_answered_with_the_endpoint_to_use() {
+    let options = ServerOptions {
+        delivery: Delivery::Multicast([239, 255, 42, 98].into()),
+        ..of_version(Version::new(4, 1))
+    };
+    let sockets = Sockets::bind();
+    let at = sockets.command();
+    let motive = sockets.serve(options, bodies(&["Wand"]));
+    let gathered = motive.connect("").stop();
+    let wanted = format!("use natnet://{at}?mode=multicast&group=239.255.42.98");
+    assert!(has_remark(&gathered.notices, &wanted), "{:?}", gathered.notices);
+}
+
+#[test]
+fn nonsense_is_counted_and_the_stream_goes_on() {
+    let motive = Motive::unicast(Version::new(4, 1), bodies(&["Wand"]));
+    let receiver = motive.connect("");
+    let mut bytes = Vec::new();
+    let mut random = 1u32;
+    for length in 0..400 {
+        let id = length % 16;
+        bytes.clear();
+        bytes.extend([id as u8, 0, length as u8, (length >> 8) as u8]);
+        bytes.extend((0..length).map(|_| {
+            random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (random >> 24) as u8
+        }));
+        // Goodbyes and new introductions are understood.
+        if ![1, 9, 11].contains(&id) {
+            motive.send_raw(&bytes);
+        }
+    }
+    motive.send_raw(&[]);
+    motive.send_to(&receiver, &frame(7), 1);
+    let gathered = receiver.finish(1);
+    assert_eq!(gathered.frames.last().unwrap().sample, 7);
+    assert!(gathered.server().frames.counters.malformed > 0);
+    let statistics = gathered.statistics.unwrap();
+    assert!(statistics.malformed > 20, "{}", statistics.malformed);
+    assert!(statistics.last_malformed.is_some());
+}
