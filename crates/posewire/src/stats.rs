@@ -48,7 +48,7 @@ pub struct Statistics {
     pub characters_refused: u64,
     /// Each subject that was heard of, by its number.
     pub subjects: Vec<SubjectStatistics>,
-    /// The server that it comes from, for protocols that have one and once it has answered.
+    /// The server that it comes from, for protocols that have one and once something has come from it.
     pub server: Option<Box<ServerStatistics>>,
 }
 

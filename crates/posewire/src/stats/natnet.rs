@@ -55,6 +55,8 @@ struct Heard {
 /// What the sockets and clocks know and the client does not.
 #[derive(Clone, Debug)]
 pub(crate) struct Link {
+    /// The server that is called.
+    pub(crate) server: SocketAddr,
     pub(crate) mode: Mode,
     pub(crate) group: Option<SocketAddr>,
     pub(crate) interface: Option<String>,
@@ -99,6 +101,11 @@ impl NatNetTally {
     pub(crate) fn connected(&mut self, server: SocketAddr, info: ServerInfo) {
         self.version = info.server.natnet_version;
         self.server = Some((server, info));
+    }
+
+    /// Whether no server has said yet who it is.
+    pub(crate) fn is_nameless(&self) -> bool {
+        self.server.is_none()
     }
 
     pub(crate) fn version(&mut self, version: Version) {
@@ -168,7 +175,9 @@ impl NatNetTally {
     }
 
     fn server(&mut self, client: &Client, left_out: u64, link: &Link, ended: bool) -> Option<Box<ServerStatistics>> {
-        let (address, info) = self.server.clone()?;
+        // A group can be listened to whose server answers nobody.
+        let unknown = || (self.frames > 0).then(|| (link.server, ServerInfo::default()));
+        let (address, info) = self.server.clone().or_else(unknown)?;
         let counters = self.counters(client.counts());
         let clock = client.clock(link.steady);
         let has = |bits| self.params.map(|params| params.contains(bits));
@@ -177,7 +186,7 @@ impl NatNetTally {
             app_version: info.server.app_version,
             address,
             connected: client.server_info().is_some(),
-            version: self.version,
+            version: client.version().unwrap_or(self.version),
             mode: link.mode,
             group: link.group,
             interface: link.interface.clone(),

@@ -12,11 +12,11 @@ use crate::histogram::Summary;
 /// What a NatNet server says, and how its frames arrive.
 #[derive(Clone, Debug)]
 pub struct ServerStatistics {
-    /// What it calls itself; what is not UTF-8 is U+FFFD.
+    /// What it calls itself; what is not UTF-8 is U+FFFD. Empty when it has never answered.
     pub name: String,
     /// Version of the application.
     pub app_version: Version,
-    /// Its command endpoint.
+    /// Its command endpoint, or where that was looked for.
     pub address: SocketAddr,
     /// Whether it answers now; otherwise the rest is what was last known.
     pub connected: bool,

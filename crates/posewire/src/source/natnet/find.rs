@@ -43,6 +43,7 @@ pub(super) fn find(address: &NatNetAddress, outlet: &mut Outlet, stop: &Stop) ->
         }
     }
     let link = Link {
+        server: targets[0],
         mode: address.mode,
         group: None,
         interface: None,

@@ -32,6 +32,7 @@ pub(super) struct Intake<'a> {
     naming: Naming,
     tally: NatNetTally,
     senders: Senders,
+    server: SocketAddr,
     clock: Clock,
     /// The latest time that the client was told; what it is told must not go back.
     told: Stamp,
@@ -39,6 +40,8 @@ pub(super) struct Intake<'a> {
     peer: String,
     silence: Silence,
     left_out: u64,
+    begun: Instant,
+    unread_remarked: bool,
     reports: Reports,
     outlet: &'a mut Outlet,
 }
@@ -75,11 +78,14 @@ impl<'a> Intake<'a> {
             naming: Naming::new(settings),
             tally: NatNetTally::new(clock.now()),
             senders: Senders::new(address.mode, server.ip()),
+            server,
             clock,
             told,
             peer: server.to_string(),
             silence: Silence::new(None),
             left_out: 0,
+            begun: Instant::now(),
+            unread_remarked: false,
             reports: Reports::new(),
             outlet,
             address,
@@ -115,6 +121,7 @@ impl<'a> Intake<'a> {
         }
         self.release(false);
         self.remark_on_silence(sockets);
+        self.remark_on_unread_frames();
         self.look_for_left_out();
         if self.reports.is_due() {
             self.report(sockets, false);
@@ -154,7 +161,8 @@ impl<'a> Intake<'a> {
     }
 
     fn is_from_server(&mut self, from: SocketAddr) -> bool {
-        let is_waiting = self.silence.lasts(LISTEN_AFTER);
+        let unanswered = self.tally.is_nameless() && self.begun.elapsed() >= LISTEN_AFTER;
+        let is_waiting = unanswered || self.silence.lasts(LISTEN_AFTER);
         let Some(adopted) = self.senders.accepts(from.ip(), is_waiting) else {
             return false;
         };
@@ -310,8 +318,19 @@ impl<'a> Intake<'a> {
         }
     }
 
+    /// Frames of a server that does not answer are of no known version.
+    fn remark_on_unread_frames(&mut self) {
+        let unread = self.client.version().is_none() && self.client.counts().early > 0;
+        if unread && self.begun.elapsed() >= REMARK_AFTER && !std::mem::replace(&mut self.unread_remarked, true) {
+            let text =
+                "frames come, but no server answers that says their version: name it, as in version=3.1".to_owned();
+            self.notice(Notice::Remark { text });
+        }
+    }
+
     fn report(&mut self, sockets: &Sockets, ended: bool) {
         let link = Link {
+            server: self.server,
             mode: self.address.mode,
             group: sockets.joined().map(|(group, _)| group),
             interface: Some(sockets.local().to_string()),

@@ -1,7 +1,10 @@
 //! Servers that vanish, send elsewhere or send nonsense.
 
 use super::motive::{Motive, Sockets, bodies, frame, of_version};
+use crate::harness::{Receiver, open};
 use posewire::Notice;
+use posewire::endpoint::{Endpoint, NatNetAddress};
+use posewire::stop::Stop;
 use posewire_natnet::Version;
 use posewire_natnet::server::{Delivery, ServerOptions};
 use std::net::UdpSocket;
@@ -70,6 +73,34 @@ fn a_server_that_multicasts_is_answered_with_the_endpoint_to_use() {
     let gathered = motive.connect("").stop();
     let wanted = format!("use natnet://{at}?mode=multicast&group=239.255.42.98");
     assert!(has_remark(&gathered.notices, &wanted), "{:?}", gathered.notices);
+}
+
+#[test]
+fn a_group_whose_server_answers_nobody_is_read_as_the_version_that_is_named() {
+    let (sockets, silent) = (Sockets::bind(), UdpSocket::bind("127.0.0.1:0").unwrap());
+    let at = silent.local_addr().unwrap();
+    let url = format!("natnet://{at}?mode=multicast&data-port=0&version=2.7");
+    let source = open(&url).unwrap();
+    let Endpoint::NatNet(NatNetAddress { data_port, group, .. }) = *source.endpoint() else {
+        panic!("{}", source.endpoint())
+    };
+    let options = ServerOptions {
+        delivery: Delivery::Multicast(group),
+        data_port,
+        ..of_version(Version::new(2, 7))
+    };
+    let motive = sockets.serve(options, bodies(&["Wand"]));
+    let receiver = Receiver::run(source, Stop::new());
+    motive.send_until(&receiver, 1, |gathered| gathered.frames.len() > 10);
+    let gathered = receiver.stop();
+    let first = &gathered.frames[0];
+    assert_eq!((first.subject.name.as_str(), first.sample), ("Body 1", 1));
+    let server = gathered.server();
+    assert_eq!(
+        (server.name.as_str(), server.address, server.connected),
+        ("", at, false)
+    );
+    assert_eq!(server.version, Version::new(2, 7));
 }
 
 #[test]
