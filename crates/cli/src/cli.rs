@@ -286,19 +286,45 @@ mod tests {
     }
 
     fn assert_parses(line: &str) {
-        let parsed = Cli::try_parse_from(words(line));
+        let words = words(line);
+        let is_endpoint = |word: &&String| word.contains("://") || word.starts_with("synthetic:");
+        for word in words.iter().filter(is_endpoint) {
+            let endpoint = word.parse::<posewire::endpoint::Endpoint>();
+            assert!(endpoint.is_ok(), "{line}: {}", endpoint.unwrap_err());
+        }
+        let parsed = Cli::try_parse_from(words);
         assert!(parsed.is_ok(), "{line}: {}", parsed.unwrap_err());
     }
 
+    /// The lines of shell code that call the program, and such code within other lines. Two words only name a verb.
+    fn commands(page: &str) -> Vec<&str> {
+        let mut commands = Vec::new();
+        let mut in_shell = false;
+        for line in page.lines() {
+            match line.strip_prefix("```") {
+                Some(language) => in_shell = language == "sh",
+                None if in_shell => commands.push(line),
+                None => {
+                    let pieces = line.split('`').skip(1).step_by(2);
+                    commands.extend(pieces.filter(|piece| piece.split_whitespace().count() > 2));
+                }
+            }
+        }
+        commands.retain(|command| command.starts_with("posewire "));
+        commands
+    }
+
     #[test]
-    fn every_command_of_the_readme_is_one() {
-        let readme = include_str!("../../../README.md");
-        let commands = readme.lines().flat_map(|line| match line.strip_prefix("posewire ") {
-            Some(_) => vec![line],
-            None => line.split('`').filter(|text| text.starts_with("posewire ")).collect(),
-        });
-        let count = commands.inspect(|command| assert_parses(command)).count();
-        assert!(count >= 10, "only {count} were found");
+    fn every_command_of_the_documents_is_one() {
+        for (page, text, at_least) in [
+            ("README", include_str!("../../../README.md"), 10),
+            ("natnet", include_str!("../../../docs/natnet.md"), 14),
+            ("troubleshooting", include_str!("../../../docs/troubleshooting.md"), 2),
+        ] {
+            let commands = commands(text);
+            commands.iter().for_each(|command| assert_parses(command));
+            assert!(commands.len() >= at_least, "only {commands:?} were found in {page}");
+        }
     }
 
     #[test]
