@@ -300,6 +300,20 @@ fn a_frame_says_once_that_the_model_has_changed() {
 }
 
 #[test]
+fn a_subject_that_is_renamed_keeps_its_id_and_leaves_nothing_behind() {
+    let mut encoder = Encoder::new(Settings::default());
+    let (before, after) = (turning("Character 1", 0), turning("Ada", 0));
+    encoder.frame([&before, &turning("Bea", 1)]);
+    assert!(encoder.rename(&before.subject, &after.subject));
+    let wire = encoder.frame([&after]);
+    assert_eq!((wire.skeletons[0].id, wire.params), (1, Some(FrameParams::default())));
+    let model = encoder.model();
+    let names: Vec<_> = model.descriptions.iter().filter_map(Description::name).collect();
+    assert_eq!(names, ["Ada", "Bea", "Ada", "Bea"]);
+    assert!(!encoder.rename(&before.subject, &after.subject));
+}
+
+#[test]
 fn markers_without_a_label_are_read_once() {
     let mut wire = WireFrame {
         other_markers: vec![[1.0, 2.0, 3.0]],

@@ -59,9 +59,19 @@ impl Encoder {
     pub fn describe(&mut self, subject: &Arc<Subject>) -> bool {
         let changes = self.take_over(subject);
         if changes {
-            self.points_fit = self.subjects.iter().map(|subject| size(subject)).sum::<usize>() <= LARGEST_FRAME;
+            self.measure();
         }
         changes
+    }
+
+    /// Puts a subject in the place of one that is now called otherwise; the ID stays. False when that one is not known.
+    pub fn rename(&mut self, before: &Arc<Subject>, subject: &Arc<Subject>) -> bool {
+        let place = self.place(before);
+        if let Some(place) = place {
+            self.subjects[place] = subject.clone();
+            self.measure();
+        }
+        place.is_some()
     }
 
     /// Whether this very subject is known, as the last one of its number and name.
@@ -103,6 +113,10 @@ impl Encoder {
             }
         }
         out
+    }
+
+    fn measure(&mut self) {
+        self.points_fit = self.subjects.iter().map(|subject| size(subject)).sum::<usize>() <= LARGEST_FRAME;
     }
 
     fn take_over(&mut self, subject: &Arc<Subject>) -> bool {

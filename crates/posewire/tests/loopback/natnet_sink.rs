@@ -11,7 +11,7 @@ use posewire_motion::{DQuat, DVec3, Frame, Segment, SegmentKind, Skeleton, Subje
 use posewire_natnet::client::{Answer, Client, ClientOptions, Event, Mode, ReceivedFrame};
 use posewire_natnet::command::Response;
 use posewire_natnet::frame::Frame as WireFrame;
-use posewire_natnet::model::Model;
+use posewire_natnet::model::{Description, Model};
 use posewire_natnet::motion::{Settings, Subjects};
 use posewire_natnet::{Message, Output, Version};
 use std::net::{SocketAddr, UdpSocket};
@@ -319,6 +319,25 @@ fn a_client_is_told_when_a_subject_comes_later() {
         _ => None,
     });
     assert_eq!(model.descriptions.len(), 2);
+}
+
+#[test]
+fn a_subject_whose_name_comes_later_is_the_same_one() {
+    let mut sink = open("");
+    let nameless = Arc::new(Subject {
+        name: "Character 1".to_owned(),
+        ..(*ada(0)).clone()
+    });
+    send(&mut sink, person(&nameless, 1));
+    let (mut peer, _) = Peer::connect(place(&sink), Version::new(4, 1));
+    sink.accept(&Item::Subject(ada(0))).unwrap();
+    (2..5).for_each(|sample| send(&mut sink, person(&ada(0), sample)));
+    let model = peer.wait_for(|event| match event {
+        Event::Model { model, .. } => Some(Arc::clone(model)),
+        _ => None,
+    });
+    let names: Vec<_> = model.descriptions.iter().filter_map(Description::name).collect();
+    assert_eq!(names, ["Ada", "Ada"], "her points and her bones");
 }
 
 #[test]

@@ -58,7 +58,7 @@ impl Ledger {
             Sent::Taken => self.datagrams += 1,
             Sent::NoRoom => self.congested += 1,
             Sent::Refused => self.failed += 1,
-            // Nobody's loss but the client's, which is told to be silent when it does not come back.
+            // No loss of this side: who has vanished is dropped for its silence.
             Sent::Nobody => {}
         }
         if let Some(client) = self.find(to) {

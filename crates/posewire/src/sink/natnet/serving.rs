@@ -15,7 +15,7 @@ use posewire_natnet::frame::HostStamps;
 use posewire_natnet::motion::{Encoder, Settings, lacks};
 use posewire_natnet::server::{Delivery, Event, LeftReason, Server, ServerOptions};
 use posewire_natnet::{Output, Socket, Transmit};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::net::SocketAddr;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -23,12 +23,15 @@ use std::time::{Duration, Instant};
 /// The server, what it is fed with and what is counted.
 pub(super) struct Serving {
     endpoint: String,
-    multicast: bool,
+    /// Where frames go when nobody has to connect.
+    group: Option<SocketAddr>,
     states_rate: bool,
     ports: Arc<Ports>,
     clock: Clock,
     server: Server,
     encoder: Encoder,
+    /// By their numbers, as they were last described.
+    subjects: BTreeMap<u32, Arc<Subject>>,
     gathering: Gathering,
     ledger: Ledger,
     frames: u64,
@@ -51,14 +54,16 @@ impl Serving {
             skeleton: address.skeleton,
             ..Settings::default()
         };
+        let group = (opened.mode == Mode::Multicast).then(|| (opened.group, opened.data_port).into());
         let serving = Self {
             server: Server::new(server_options(&opened, options)),
             endpoint: Endpoint::NatNet(opened).to_string(),
-            multicast: address.mode == Mode::Multicast,
+            group,
             states_rate: options.rate.is_some(),
             ports,
             clock: Clock::new(),
             encoder: Encoder::new(settings),
+            subjects: BTreeMap::new(),
             gathering: Gathering::default(),
             ledger: Ledger::default(),
             frames: 0,
@@ -76,7 +81,7 @@ impl Serving {
     }
 
     pub(super) fn is_ready(&self) -> bool {
-        self.multicast || self.ledger.peers() > 0
+        self.group.is_some() || self.ledger.peers() > 0
     }
 
     /// How long the other thread may wait for commands before it looks whether something is due.
@@ -94,7 +99,7 @@ impl Serving {
     /// [`Error::Descriptions`] when it is one too many.
     pub(super) fn describe(&mut self, subject: &Arc<Subject>) -> Result<()> {
         self.gathering.expect(subject.id);
-        if !self.encoder.describe(subject) {
+        if !self.take_over(subject)? {
             return Ok(());
         }
         if let Some(rate) = subject.rate.filter(|_| !self.states_rate) {
@@ -159,6 +164,18 @@ impl Serving {
         }
     }
 
+    /// Lets the encoder know of a subject. True when that changes the descriptions.
+    fn take_over(&mut self, subject: &Arc<Subject>) -> Result<bool> {
+        match self.subjects.insert(subject.id, Arc::clone(subject)) {
+            Some(before) if before.name != subject.name => {
+                // What is gathered is still of the old name.
+                self.send()?;
+                Ok(self.encoder.rename(&before, subject))
+            }
+            _ => Ok(self.encoder.describe(subject)),
+        }
+    }
+
     /// Tells once what of a subject's first frame NatNet has no place for.
     fn tell_left_out(&mut self, frame: &Frame) {
         if !self.seen.insert(frame.subject.id) {
@@ -188,10 +205,10 @@ impl Serving {
         }
         self.act();
         self.count(&shares);
-        if self.multicast && self.ledger.has_only_failed() {
-            return Err(self.unsendable());
+        match self.group {
+            Some(group) if self.ledger.has_only_failed() => Err(unsendable(group)),
+            _ => Ok(()),
         }
-        Ok(())
     }
 
     /// What a take holds was exposed and received when it was due; a live source tells when it was received.
@@ -264,17 +281,14 @@ impl Serving {
         let mut progress = self.progress.lock().unwrap_or_else(PoisonError::into_inner);
         progress.frames = self.frames;
         progress.lateness = self.lateness.summary();
-        progress.targets = vec![self.ledger.progress(&self.endpoint, self.multicast)];
+        progress.targets = vec![self.ledger.progress(&self.endpoint, self.group.is_some())];
     }
+}
 
-    fn unsendable(&self) -> Error {
-        let refused = std::io::Error::new(std::io::ErrorKind::NetworkUnreachable, "no frame can be sent");
-        Error::socket(
-            "multicast from",
-            format!("udp {}", self.ports.command.local_address()),
-            &refused,
-        )
-    }
+fn unsendable(group: SocketAddr) -> Error {
+    let kind = std::io::ErrorKind::NetworkUnreachable;
+    let refused = std::io::Error::new(kind, "no frame can be sent; ?interface= names the network to use");
+    Error::socket("send to", format!("udp {group}"), &refused)
 }
 
 fn server_options(opened: &NatNetAddress, options: &NatNetSinkOptions) -> ServerOptions {
