@@ -322,7 +322,9 @@ mod tests {
             ("troubleshooting", include_str!("../../../docs/troubleshooting.md"), 2),
         ] {
             let commands = commands(text);
-            commands.iter().for_each(|command| assert_parses(command));
+            for command in &commands {
+                assert_parses(command);
+            }
             assert!(commands.len() >= at_least, "only {commands:?} were found in {page}");
         }
     }
