@@ -113,10 +113,10 @@ class Watch:
     def _marker_faults(self, number, markers, marker_sets):
         right = self.take.markers(number)
         found = {marker & 0xFFFF: position for marker, position in markers}
-        if markers and list(found) != list(right):
+        if markers and list(found) == list(right):
+            yield from distant("marker", found.items(), right.values())
+        elif markers:
             yield f"markers {list(found)}, not {list(right)}"
-            return
-        yield from distant("marker", found.items(), right.values())
         for name, positions in marker_sets:
             if text(name) == self.take.name:
                 yield from distant("marker of the set", enumerate(positions), right.values())
