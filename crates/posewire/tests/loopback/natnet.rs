@@ -2,5 +2,6 @@
 
 mod connection;
 mod contents;
+#[cfg(target_os = "linux")]
 mod finding;
 mod motive;

@@ -97,12 +97,13 @@ impl<'a> Intake<'a> {
     /// Takes one datagram as it arrived; whether it was a frame.
     pub(super) fn datagram(&mut self, received: Received<'_>) -> bool {
         let is_frame = received.bytes.first_chunk() == Some(&MessageId::FRAME.0.to_le_bytes());
+        let from = self.senders.known_as(received.from);
         self.tally.datagram(received.bytes.len());
-        if is_frame && !self.is_from_server(received.from) {
+        if is_frame && !self.is_from_server(from) {
             return false;
         }
         let now = self.arrival(received.stamp);
-        self.client.handle(now, received.from, received.bytes);
+        self.client.handle(now, from, received.bytes);
         self.settle(received.stamp);
         is_frame
     }

@@ -71,6 +71,7 @@ impl NatNet {
             }
         };
         let mut running = Running {
+            is_cut_off: false,
             intake: Intake::new(outlet, self.address, server),
             sockets: *sockets,
         };
@@ -82,6 +83,8 @@ impl NatNet {
 
 /// A client at work.
 struct Running<'a> {
+    /// Whether the last command could not be sent.
+    is_cut_off: bool,
     intake: Intake<'a>,
     sockets: Sockets,
 }
@@ -122,10 +125,12 @@ impl Running<'_> {
     }
 
     fn send(&mut self) {
-        for transmit in self.intake.outbox.drain(..) {
+        for transmit in std::mem::take(&mut self.intake.outbox) {
+            let outcome = self.sockets.send(&transmit.bytes, transmit.to);
+            let was_cut_off = std::mem::replace(&mut self.is_cut_off, outcome.is_err());
             // A network that is down now may be up for the next try.
-            if let Err(error) = self.sockets.send(&transmit.bytes, transmit.to) {
-                tracing::debug!(%error, "a command was not sent");
+            if let (Err(error), false) = (outcome, was_cut_off) {
+                self.intake.notice(Notice::NotConnected { error });
             }
         }
     }

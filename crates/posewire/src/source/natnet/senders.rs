@@ -1,20 +1,24 @@
-//! Whose frames are taken.
+//! Whose datagrams are taken.
 
-use std::net::IpAddr;
+use std::net::{IpAddr, SocketAddr};
 
 use posewire_natnet::client::Mode;
 
 use crate::net;
 
-/// Whose frames are taken from a group, to which several servers may send.
+/// Whose datagrams are taken: the server's, which may have several addresses.
 ///
-/// The server's own; where none come from the address that answers, those of the first other one: a server with several
-/// networks may send from any of its addresses, one on this machine from whichever suits the group.
+/// A server on this machine answers from the address that suits the network, whichever it was asked at; so each of the
+/// machine's addresses is the server's. Several servers may send to one group, and one of them from another of its networks
+/// than it answers on: where no frames come from the address that answers, those of the first other one are taken.
 #[derive(Debug)]
 pub(super) struct Senders {
     server: IpAddr,
     is_own: bool,
     mode: Mode,
+    /// Another address of this machine that it answers from.
+    alias: Option<IpAddr>,
+    /// Another address that frames are taken from.
     other: Option<IpAddr>,
 }
 
@@ -24,6 +28,7 @@ impl Senders {
             server,
             is_own: net::is_own(server),
             mode,
+            alias: None,
             other: None,
         }
     }
@@ -33,15 +38,22 @@ impl Senders {
         self.is_own
     }
 
+    /// The endpoint that a sender is known by.
+    pub(super) fn known_as(&mut self, from: SocketAddr) -> SocketAddr {
+        let ip = from.ip();
+        let is_alias = ip != self.server && self.is_own && (self.alias == Some(ip) || net::is_own(ip));
+        if !is_alias {
+            return from;
+        }
+        self.alias = Some(ip);
+        SocketAddr::new(self.server, from.port())
+    }
+
     /// `None` for a stranger's frame; otherwise whether its address was adopted just now, as it is when frames have been
     /// waited for too long.
     pub(super) fn accepts(&mut self, from: IpAddr, is_waiting: bool) -> Option<bool> {
         // Of single frames the client itself knows whose they are.
         if self.mode == Mode::Unicast || from == self.server || self.other == Some(from) {
-            return Some(false);
-        }
-        if self.is_own && net::is_own(from) {
-            self.other = Some(from);
             return Some(false);
         }
         let adopts = is_waiting && self.other.is_none();
@@ -69,9 +81,13 @@ mod tests {
     }
 
     #[test]
-    fn a_server_on_this_machine_sends_from_any_of_its_addresses() {
-        let mut senders = Senders::new(Mode::Multicast, [127, 0, 0, 1].into());
-        assert_eq!(senders.accepts([127, 0, 0, 2].into(), false), Some(false));
-        assert_eq!(senders.accepts([192, 0, 2, 1].into(), false), None);
+    fn a_server_on_this_machine_is_known_by_one_of_its_addresses() {
+        let [own, other, stranger] = [[127, 0, 1, 1], [127, 0, 0, 1], [198, 51, 100, 1]].map(IpAddr::from);
+        let mut senders = Senders::new(Mode::Unicast, own);
+        let mut known_as = |ip| senders.known_as(SocketAddr::new(ip, 1510)).ip();
+        assert_eq!(
+            [own, other, other, stranger].map(&mut known_as),
+            [own, own, own, stranger]
+        );
     }
 }

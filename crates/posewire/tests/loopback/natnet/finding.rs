@@ -1,6 +1,6 @@
-//! Servers that a broadcast finds.
+//! Servers that a broadcast finds, or that answer from another address. Other systems have one loopback address only.
 
-use super::motive::{Motive, bodies};
+use super::motive::{Motive, Sockets, bodies, of_version};
 use crate::harness::{Gatherer, PATIENCE, Receiver, open};
 use posewire::stop::Stop;
 use posewire::{Error, Session};
@@ -73,6 +73,16 @@ fn two_servers_are_named_so_that_one_can_be_chosen() {
     ];
     assert_eq!(error, Error::SeveralServers { found });
     assert!(error.help().is_some());
+}
+
+#[test]
+fn a_server_that_answers_from_another_of_its_addresses_is_the_same() {
+    let everywhere = Sockets::bind_at(([0, 0, 0, 0], 0).into());
+    let port = everywhere.command().port();
+    let motive = everywhere.serve(of_version(Version::new(4, 1)), bodies(&["Wand"]));
+    let receiver = Receiver::start(&format!("natnet://127.0.0.2:{port}"));
+    motive.send_until(&receiver, 1, |gathered| gathered.frames.len() > 3);
+    assert_eq!(receiver.stop().server().address, ([127, 0, 0, 2], port).into());
 }
 
 #[test]
