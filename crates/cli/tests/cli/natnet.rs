@@ -1,9 +1,9 @@
 //! `posewire stream` to NatNet clients, and from a NatNet server to MXTP.
 
-use crate::program::{Monitor, assert_documented, objects, posewire};
+use crate::program::{Monitor, Relay, assert_documented, objects};
+use posewire_natnet::{MessageId, Packet};
 use std::io::{BufRead, BufReader, Read};
 use std::net::{Ipv4Addr, UdpSocket};
-use std::path::Path;
 use std::process::{Child, ChildStderr, Command, Stdio};
 
 /// `posewire stream` to NatNet clients, waiting for one.
@@ -30,12 +30,8 @@ impl Server {
             child,
         };
         let said = server.read_until("  to ");
-        server.endpoint = said
-            .lines()
-            .last()
-            .unwrap_or_default()
-            .trim_start_matches("  to ")
-            .to_owned();
+        let line = said.lines().last().unwrap_or_default();
+        server.endpoint.push_str(line.trim_start_matches("  to "));
         server
     }
 
@@ -74,12 +70,12 @@ fn a_stream_begins_when_a_client_connects_and_tells_of_it() {
     client.send_to(&[0, 0, 0, 0], server.place()).unwrap();
     let mut buffer = vec![0; 65_535];
     let mut kinds = Vec::new();
-    while kinds.last() != Some(&9) {
-        client.recv(&mut buffer).unwrap();
-        kinds.push(buffer[0]);
+    while kinds.last() != Some(&MessageId::DISCONNECT) {
+        let length = client.recv(&mut buffer).unwrap();
+        kinds.push(Packet::decode(&buffer[..length]).unwrap().id);
     }
-    assert_eq!(kinds[0], 1, "the server says who it is");
-    assert_eq!(kinds.iter().filter(|kind| **kind == 7).count(), 30);
+    assert_eq!(kinds[0], MessageId::SERVER_INFO);
+    assert_eq!(kinds.iter().filter(|kind| **kind == MessageId::FRAME).count(), 30);
 
     let address = client.local_addr().unwrap().to_string();
     let endpoint = server.endpoint.clone();
@@ -108,21 +104,12 @@ fn a_stream_begins_when_a_client_connects_and_tells_of_it() {
 fn a_skeleton_is_passed_on_from_natnet_to_mxtp() {
     let monitor = Monitor::start(&["mxtp://127.0.0.1:0", "--json", "--frames", "--count", "20"]);
     let mut server = Server::start("synthetic:walk?rate=60&props=1&fingers=true", &["--duration", "20"]);
-    let bridge = [
-        "stream",
-        &format!("natnet://{}", server.place()),
-        "--to",
-        &monitor.endpoint,
-        "--duration",
-        "2",
-    ];
-    let bridged = posewire(Path::new("."), &bridge, b"");
-    assert_eq!(bridged.code, Some(0), "{}", bridged.err);
-    assert!(!bridged.err.contains("left out"), "{}", bridged.err);
+    let source = format!("natnet://{}", server.place());
+    let bridge = Relay::start(&[&source, "--to", &monitor.endpoint, "--duration", "20"]);
+    let frames = objects(&monitor.end().out, "frame");
+    drop(bridge);
     server.child.kill().unwrap();
     server.child.wait().unwrap();
-
-    let frames = objects(&monitor.end().out, "frame");
     let last = frames.last().unwrap();
     assert_eq!((&last["character"], &last["name"]), (&0.into(), &"Ada".into()));
     let segments = last["segments"].as_array().unwrap();
