@@ -14,6 +14,7 @@ use std::net::SocketAddr;
 use super::advice;
 use super::naming::{Arrived, Naming};
 use super::senders::Senders;
+use super::silence::{REMARK_AFTER, Silence};
 use super::sockets::Sockets;
 use crate::clock::Clock;
 use crate::endpoint::NatNetAddress;
@@ -46,16 +47,6 @@ pub(super) struct Intake<'a> {
     outlet: &'a mut Outlet,
 }
 
-/// Whether a server that answers sends no frames.
-struct Silence {
-    /// Since when it answers.
-    since: Option<Instant>,
-    /// Whether its data port was listened at, and what has kept us from that.
-    listened: bool,
-    taken: Option<Error>,
-    remarked: bool,
-}
-
 impl<'a> Intake<'a> {
     pub(super) fn new(outlet: &'a mut Outlet, address: NatNetAddress, server: SocketAddr) -> Self {
         let clock = Clock::new();
@@ -82,7 +73,7 @@ impl<'a> Intake<'a> {
             clock,
             told,
             peer: server.to_string(),
-            silence: Silence::new(None),
+            silence: Silence::default(),
             left_out: 0,
             begun: Instant::now(),
             unread_remarked: false,
@@ -190,7 +181,7 @@ impl<'a> Intake<'a> {
             Event::Version(version) => self.tally.version(version),
             Event::Model { model, quirks } => self.model(&model, quirks),
             Event::Frame(frame) => {
-                self.silence.since = None;
+                self.silence.broken();
                 if let Some(frame) = self.naming.hold((frame, at)) {
                     self.forward(&frame);
                 }
@@ -198,7 +189,7 @@ impl<'a> Intake<'a> {
             Event::Message(text) => tracing::info!(%text, "the server says"),
             Event::Answer { request, answer } if request == FRAME_RATE => self.rate(&answer),
             Event::Lost(reason) => {
-                self.silence = Silence::new(None);
+                self.silence = Silence::default();
                 let (peer, reason) = (self.peer.clone(), advice::of_loss(reason).to_owned());
                 self.notice(Notice::Disconnected { peer, reason });
             }
@@ -218,7 +209,7 @@ impl<'a> Intake<'a> {
         if let Some(text) = advice::of_delivery(&self.address, &info) {
             self.notice(Notice::Remark { text });
         }
-        self.silence = Silence::new(Some(Instant::now()));
+        self.silence = Silence::begin();
         self.naming.wait();
         self.client.request(self.told, FRAME_RATE);
         self.tally.connected(server, info);
@@ -301,22 +292,11 @@ impl<'a> Intake<'a> {
     }
 
     fn remark_on_silence(&mut self, sockets: &Sockets) {
-        if !self.silence.lasts(REMARK_AFTER) || std::mem::replace(&mut self.silence.remarked, true) {
+        if !self.silence.is_to_be_told() {
             return;
         }
-        let remark = match (sockets.joined(), &self.silence.taken) {
-            (Some((group, on)), _) => Some(format!(
-                "the server answers, but no frames come to {group} on {on}: is it streaming? Multicast may need \
-                 interface=NAME, and is often held back by Wi-Fi and switches"
-            )),
-            (None, Some(error)) => Some(format!(
-                "the server answers, but no frames come: is it streaming? It may send them to its data port, but: {error}"
-            )),
-            (None, None) => None,
-        };
-        if let Some(text) = remark {
-            self.notice(Notice::Remark { text });
-        }
+        let text = self.silence.text(sockets);
+        self.notice(Notice::Remark { text });
     }
 
     /// Frames of a server that does not answer are of no known version.
@@ -359,23 +339,7 @@ impl<'a> Intake<'a> {
     }
 }
 
-impl Silence {
-    fn new(since: Option<Instant>) -> Self {
-        Self {
-            since,
-            listened: false,
-            taken: None,
-            remarked: false,
-        }
-    }
-
-    fn lasts(&self, time: Duration) -> bool {
-        self.since.is_some_and(|since| since.elapsed() >= time)
-    }
-}
-
 const FRAME_RATE: &str = "FrameRate";
 const LISTEN_AFTER: Duration = Duration::from_secs(1);
-const REMARK_AFTER: Duration = Duration::from_secs(3);
 /// A stamp that is longer ago is of a clock that was set meanwhile.
 const LONGEST_WAIT: Duration = Duration::from_secs(1);

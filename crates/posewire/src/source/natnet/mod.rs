@@ -5,6 +5,7 @@ mod find;
 mod intake;
 mod naming;
 mod senders;
+mod silence;
 mod sockets;
 
 use std::net::{IpAddr, SocketAddr};

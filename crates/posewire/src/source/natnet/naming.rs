@@ -122,4 +122,4 @@ impl Waiting {
 
 /// A server that has not described anything by then does not.
 const PATIENCE: Duration = Duration::from_secs(1);
-const MAX_WAITING: usize = 1024;
+const MAX_WAITING: usize = 256;

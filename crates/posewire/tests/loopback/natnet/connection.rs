@@ -104,6 +104,27 @@ fn a_group_whose_server_answers_nobody_is_read_as_the_version_that_is_named() {
 }
 
 #[test]
+fn a_server_that_answers_and_sends_no_frames_is_told_of_once_for_each_silence() {
+    let motive = Motive::unicast(Version::new(4, 1), bodies(&["Wand"]));
+    let receiver = motive.connect("");
+    let told = |count: usize| {
+        let is_remark = |notice: &&Notice| matches!(notice, Notice::Remark { .. });
+        receiver
+            .gatherer
+            .wait_until(|gathered| gathered.notices.iter().filter(is_remark).count() == count);
+    };
+    told(1);
+    motive.send_to(&receiver, &frame(1), 1);
+    told(2);
+    let notices = receiver.stop().notices;
+    let expected = [
+        "the server answers, but no frames come: is it streaming?",
+        "the server answers, but no more frames come: is it paused?",
+    ];
+    assert_eq!([1, 2].map(|place| notices[place].to_string()), expected);
+}
+
+#[test]
 fn nonsense_is_counted_and_the_stream_goes_on() {
     let motive = Motive::unicast(Version::new(4, 1), bodies(&["Wand"]));
     let receiver = motive.connect("");
