@@ -137,15 +137,19 @@ Examples:
   posewire monitor                                   whatever arrives on UDP port 9763
   posewire monitor mxtp+tcp://0.0.0.0                let MVN connect over TCP
   posewire monitor \"mxtp://239.255.42.99?interface=eth0\"
+  posewire monitor natnet://10.0.0.7                 Motive there, unicast
+  posewire monitor \"natnet://10.0.0.7?mode=multicast&interface=eth0\"
+  posewire monitor natnet://0.0.0.0                  whichever NatNet server answers
   posewire monitor --json --frames --count 240 > frames.jsonl
 
-In MVN: Options > Preferences > Network Streamer, add this machine's address with port 9763.")]
+In MVN: Options > Preferences > Network Streamer, add this machine's address with port 9763.
+In Motive: Settings > Streaming, Enable, and as Local Interface the network that you share.")]
 pub(crate) struct Monitor {
-    /// Where to listen.
+    /// Where to listen, or which NatNet server to connect to.
     #[arg(default_value = "mxtp://0.0.0.0:9763")]
     pub(crate) url: String,
 
-    /// Print JSON: one object a second for each character and datagram type.
+    /// Print JSON: one object a second for each character and datagram type, or for a server.
     #[arg(long)]
     pub(crate) json: bool,
 

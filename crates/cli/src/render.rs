@@ -1,5 +1,9 @@
 //! Results as people read them.
 
+mod server;
+
+pub(crate) use server::{delivery, kind, model, unknown_latencies};
+
 use crate::plain::{cut, printable};
 use posewire::sink::{ClientProgress, Progress};
 use posewire::source::Preview;
@@ -81,8 +85,12 @@ pub(crate) fn statistics(statistics: &Statistics) -> String {
         _ = write!(text, ", {count} {what}");
     }
     text.push('\n');
-    for subject in &statistics.subjects {
-        subject_table(&mut text, subject);
+    match &statistics.server {
+        Some(server) => text.push_str(&server::table(server, &statistics.subjects)),
+        None => statistics
+            .subjects
+            .iter()
+            .for_each(|subject| subject_table(&mut text, subject)),
     }
     text
 }

@@ -1,7 +1,8 @@
 //! The newest of everything, for whoever shows it.
 
-use crate::plain::{plural, printable};
-use posewire::endpoint::{Endpoint, TcpMode};
+use super::hint;
+use super::protocol::Protocol;
+use posewire::endpoint::Endpoint;
 use posewire::queue::Policy;
 use posewire::stats::Statistics;
 use posewire::stop::Stop;
@@ -13,9 +14,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 /// The newest of everything that a stream brought. Clones are the same board.
 #[derive(Clone)]
 pub(super) struct Board {
+    endpoint: Arc<Endpoint>,
     listening: Arc<str>,
-    /// Whether it is we who connect to the sender.
-    connects: bool,
     newest: Arc<Mutex<Newest>>,
     count: Option<u64>,
     stop: Stop,
@@ -25,7 +25,9 @@ pub(super) struct Board {
 struct Newest {
     frames: BTreeMap<u32, Arc<Frame>>,
     statistics: Option<Arc<Statistics>>,
+    /// The newest word about the connection.
     notice: Option<Notice>,
+    remark: Option<Arc<str>>,
     samples: u64,
 }
 
@@ -33,8 +35,8 @@ impl Board {
     /// A board that sets `stop` after `count` samples.
     pub(super) fn new(endpoint: &Endpoint, count: Option<u64>, stop: Stop) -> Self {
         Self {
+            endpoint: Arc::new(endpoint.clone()),
             listening: endpoint.to_string().into(),
-            connects: matches!(endpoint, Endpoint::MxtpTcp(address) if address.mode == Some(TcpMode::Connect)),
             newest: Arc::default(),
             count,
             stop,
@@ -50,10 +52,13 @@ impl Board {
         &self.listening
     }
 
+    pub(super) fn protocol(&self) -> Protocol {
+        Protocol::of(&self.endpoint)
+    }
+
     /// What to say when it begins.
     pub(super) fn opening(&self) -> String {
-        let verb = if self.connects { "connecting to" } else { "listening on" };
-        format!("{verb} {}", self.listening)
+        hint::opening(&self.endpoint)
     }
 
     pub(super) fn statistics(&self) -> Option<Arc<Statistics>> {
@@ -69,55 +74,30 @@ impl Board {
         self.lock().notice.clone()
     }
 
-    /// How much has come that could be read, in no particular unit: what grows is heard.
+    /// The newest remark about the source.
+    pub(super) fn remark(&self) -> Option<Arc<str>> {
+        self.lock().remark.clone()
+    }
+
+    /// How much has come that could be read, in no particular unit: what grows is heard. A server that answers and sends
+    /// nothing of a subject is not heard.
     pub(super) fn heard(&self) -> u64 {
         let newest = self.lock();
+        if self.protocol() == Protocol::NatNet {
+            return newest.samples;
+        }
         let statistics = newest.statistics.as_ref();
         newest.samples + statistics.map_or(0, |all| all.datagrams.saturating_sub(all.malformed))
     }
 
     /// What to check when nothing comes that can be read.
     pub(super) fn hint(&self) -> String {
-        let listening = &self.listening;
-        if self.heard() > 0 {
-            return format!("nothing more comes to {listening}: is the sender paused, or gone?");
-        }
-        match self.statistics() {
-            Some(all) if all.datagrams > 0 || all.skipped_bytes > 0 => unreadable(listening, &all),
-            _ if self.connects => format!(
-                "nothing has come from {listening} yet. Check that\n\
-                 - a streamer listens there, as posewire stream does with ?mode=listen\n\
-                 - no firewall keeps us away from that port"
-            ),
-            _ => format!(
-                "nothing has come to {listening} yet. Check that\n\
-                 - the sender streams to an address of this machine and to this port\n\
-                 - no firewall keeps it away: UDP and TCP have rules of their own\n\
-                 - both sides speak the same: mxtp:// is UDP, mxtp+tcp:// is TCP"
-            ),
-        }
+        hint::of(&self.endpoint, self.heard() > 0, self.statistics().as_deref())
     }
 
     fn lock(&self) -> MutexGuard<'_, Newest> {
         self.newest.lock().unwrap_or_else(PoisonError::into_inner)
     }
-}
-
-/// What has come and cannot be read, and what to check.
-fn unreadable(listening: &str, all: &Statistics) -> String {
-    let what = match &all.last_malformed {
-        Some(last) => format!(
-            "{}, none MXTP; the last: {}",
-            plural(all.datagrams, "datagram"),
-            printable(last)
-        ),
-        None => format!("{} without an MXTP datagram in them", plural(all.skipped_bytes, "byte")),
-    };
-    format!(
-        "what comes to {listening} cannot be read: {what}. Check that\n\
-         - it is the Network Streamer of MVN that sends to this port\n\
-         - no other program, as a broadcast, uses this port"
-    )
 }
 
 struct BoardSink(Board);
@@ -139,6 +119,7 @@ impl Sink for BoardSink {
                 }
             }
             Item::Statistics(statistics) => newest.statistics = Some(Arc::clone(statistics)),
+            Item::Notice(Notice::Remark { text }) => newest.remark = Some(text.as_str().into()),
             Item::Notice(notice) => newest.notice = Some(notice.clone()),
             _ => {}
         }

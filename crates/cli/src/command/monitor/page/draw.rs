@@ -1,11 +1,12 @@
 //! The whole page.
 
+use super::super::protocol::Protocol;
 use super::controls::{Controls, Pane};
 use super::layout::{Layout, Wanted, top};
 use super::table::{put, put_right, slot, width};
 use super::theme::{Theme, bold, faint};
 use super::view::{Character, View};
-use super::{angles, characters, figure, header, overlay, problems, types};
+use super::{angles, characters, figure, header, overlay, positions, problems, server, types};
 use ratatui::Frame;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -21,7 +22,7 @@ pub(super) fn draw(frame: &mut Frame, view: &View, controls: &Controls, theme: T
         &[]
     };
     if controls.help {
-        overlay::draw_help(buffer, area, theme);
+        overlay::draw_help(buffer, area, view.protocol, theme);
     }
     turns
 }
@@ -29,17 +30,17 @@ pub(super) fn draw(frame: &mut Frame, view: &View, controls: &Controls, theme: T
 fn draw_silence(buffer: &mut Buffer, area: Rect, view: &View, controls: &Controls, theme: Theme) {
     let wanted = Wanted {
         characters: 0,
-        types: 0,
-        angles: 0,
+        stream: 0,
+        details: 0,
         problems: 0,
     };
-    let layout = Layout::new(area, wanted, Pane::Types);
+    let layout = Layout::new(area, wanted, Pane::Stream);
     let mut rest = area;
     top(&mut rest, 1);
     rest.height -= layout.footer.height;
     header::draw(buffer, layout.header, view, controls, theme);
     overlay::draw_silence(buffer, rest, view, theme);
-    header::draw_keys(buffer, layout.footer, 0, 0);
+    header::draw_keys(buffer, layout.footer, 0, view);
 }
 
 fn draw_stream(
@@ -53,8 +54,14 @@ fn draw_stream(
     let problems = problems::of(view, selected);
     let wanted = Wanted {
         characters: lines(view.characters.len()),
-        types: lines(selected.types.len().max(1)) + 1,
-        angles: lines(angles::count(selected)),
+        stream: match view.protocol {
+            Protocol::Mxtp => lines(selected.types.len().max(1)) + 1,
+            Protocol::NatNet => server::LINES,
+        },
+        details: lines(match view.protocol {
+            Protocol::Mxtp => angles::count(selected),
+            Protocol::NatNet => positions::count(selected),
+        }),
         problems: lines(problems.len()),
     };
     let layout = Layout::new(area, wanted, controls.pane);
@@ -63,15 +70,18 @@ fn draw_stream(
     for (place, (pane, part)) in layout.panes.iter().enumerate() {
         let takes_turns = place + 1 == layout.panes.len();
         let turns = if takes_turns { layout.turns } else { &[] };
-        let body = draw_title(buffer, *part, (*pane, turns), selected, theme);
-        match pane {
-            Pane::Types => types::draw(buffer, body, selected, theme),
-            Pane::Figure => figure::draw(buffer, body, selected, theme),
-            Pane::Angles => angles::draw(buffer, body, selected, controls.scroll),
-            Pane::Problems => problems::draw(buffer, body, &problems, theme),
+        let titles = (*pane, turns, view.protocol);
+        let body = draw_title(buffer, *part, titles, selected, theme);
+        match (pane, view.protocol) {
+            (Pane::Stream, Protocol::Mxtp) => types::draw(buffer, body, selected, theme),
+            (Pane::Stream, Protocol::NatNet) => server::draw(buffer, body, view.server.as_ref(), selected, theme),
+            (Pane::Figure, protocol) => figure::draw(buffer, body, selected, protocol, theme),
+            (Pane::Details, Protocol::Mxtp) => angles::draw(buffer, body, selected, controls.scroll),
+            (Pane::Details, Protocol::NatNet) => positions::draw(buffer, body, selected, controls.scroll, theme),
+            (Pane::Problems, _) => problems::draw(buffer, body, &problems, theme),
         }
     }
-    header::draw_keys(buffer, layout.footer, layout.turns.len(), view.characters.len());
+    header::draw_keys(buffer, layout.footer, layout.turns.len(), view);
     layout.turns
 }
 
@@ -79,7 +89,7 @@ fn draw_stream(
 fn draw_title(
     buffer: &mut Buffer,
     mut area: Rect,
-    (pane, turns): (Pane, &[Pane]),
+    (pane, turns, protocol): (Pane, &[Pane], Protocol),
     selected: &Character,
     theme: Theme,
 ) -> Rect {
@@ -91,14 +101,14 @@ fn draw_title(
         x = x.saturating_add(width(text));
     };
     if turns.len() < 2 {
-        say(&format!(" {} ", pane.title()), theme.title());
+        say(&format!(" {} ", pane.title(protocol)), theme.title());
     } else {
         for turn in turns {
             let shown = *turn == pane;
             let name = if shown {
-                format!(" [{}] ", turn.title())
+                format!(" [{}] ", turn.title(protocol))
             } else {
-                format!(" {} ", turn.title())
+                format!(" {} ", turn.title(protocol))
             };
             say(&name, if shown { theme.title() } else { faint() });
         }

@@ -12,6 +12,7 @@ use std::time::Duration;
 pub(super) fn view(people: u32) -> View {
     View {
         listening: "mxtp://0.0.0.0:9763".to_owned(),
+        opening: "listening on mxtp://0.0.0.0:9763".to_owned(),
         elapsed: Duration::from_secs(83),
         datagrams: 98_400,
         datagrams_per_second: 1_203.0,
@@ -86,6 +87,7 @@ fn character(id: u32) -> Character {
         age: Duration::from_millis(4),
         timecode,
         types,
+        tracking: None,
     }
 }
 

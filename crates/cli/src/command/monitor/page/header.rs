@@ -25,7 +25,14 @@ pub(super) fn draw(buffer: &mut Buffer, line: Rect, view: &View, controls: &Cont
         }
     }
     pieces.push(Piece::new(5, &text::clock(view.elapsed), Style::new()));
-    let datagrams = format!("{} datagrams, {:.0}/s", view.datagrams, view.datagrams_per_second);
+    let datagrams = match &view.server {
+        Some(server) => format!(
+            "{} frames, {} Hz",
+            server.frames.received,
+            text::rate(server.frames.rate_hz)
+        ),
+        None => format!("{} datagrams, {:.0}/s", view.datagrams, view.datagrams_per_second),
+    };
     pieces.push(Piece::new(4, &datagrams, Style::new()));
     pieces.push(Piece::new(
         3,
@@ -39,10 +46,10 @@ pub(super) fn draw(buffer: &mut Buffer, line: Rect, view: &View, controls: &Cont
 }
 
 /// Draws the last line: those keys that do something now.
-pub(super) fn draw_keys(buffer: &mut Buffer, line: Rect, turns: usize, characters: usize) {
+pub(super) fn draw_keys(buffer: &mut Buffer, line: Rect, turns: usize, view: &View) {
     let mut keys = vec![("q", "quit")];
-    if characters > 1 {
-        keys.push(("↑↓", "character"));
+    if view.characters.len() > 1 {
+        keys.push(("↑↓", view.protocol.subject()));
     }
     if turns > 1 {
         keys.push(("Tab", "next pane"));

@@ -3,6 +3,7 @@
 use super::table::{put, slot};
 use super::theme::faint;
 use super::view::Character;
+use crate::plain::cut;
 use posewire_motion::{DVec3, Frame};
 use posewire_mxtp::MessageType;
 use ratatui::buffer::Buffer;
@@ -29,6 +30,30 @@ pub(super) fn draw(buffer: &mut Buffer, area: Rect, character: &Character) {
             row((label, room), center_of_mass(frame), missing_center(character)),
             Style::new(),
         ),
+    ];
+    for (line, (text, style)) in (0..).zip(lines) {
+        put(buffer, slot(area, line, 1, area.width), &text, style);
+    }
+}
+
+/// Draws the first segment of a subject, which is the root of a skeleton and all of a rigid body: metres, the heading, and
+/// the quaternion.
+pub(super) fn draw_segment(buffer: &mut Buffer, area: Rect, subject: &Character) {
+    let Some(segment) = subject.subject.skeleton.segments.first() else {
+        return;
+    };
+    let Some(frame) = &subject.frame else { return };
+    let room = ROOM_FOR_NAME;
+    let orientation = frame.orientation.first().copied().flatten();
+    let turn = orientation.map_or_else(String::new, |turn| {
+        let label = "quaternion wxyz";
+        format!("{label:room$} {:7.3}{:8.3}{:8.3}{:8.3}", turn.w, turn.x, turn.y, turn.z)
+    });
+    let name = cut(&segment.name, room);
+    let lines = [
+        (format!("{:room$}{:>8}{:>8}{:>8} m", "", "x", "y", "z"), faint()),
+        (row((&name, room), pelvis(frame), " not tracked"), Style::new()),
+        (turn, Style::new()),
     ];
     for (line, (text, style)) in (0..).zip(lines) {
         put(buffer, slot(area, line, 1, area.width), &text, style);
@@ -89,4 +114,5 @@ fn missing_center(character: &Character) -> &'static str {
     }
 }
 
+const ROOM_FOR_NAME: usize = 15;
 const ROOM_FOR_LONG_LABEL: u16 = 43;

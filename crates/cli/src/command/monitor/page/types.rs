@@ -45,6 +45,21 @@ fn draw_types(buffer: &mut Buffer, area: Rect, types: &[TypeRow], theme: Theme) 
     }
 }
 
+/// Draws the titles and the numbers of a server's frames.
+pub(super) fn draw_frames(buffer: &mut Buffer, area: Rect, row: &TypeRow, theme: Theme) {
+    let area = Rect {
+        x: area.x + u16::from(area.width > 0),
+        width: area.width.saturating_sub(1),
+        ..area
+    };
+    let columns = OF_FRAMES.map(|column| COLUMNS[column]);
+    let table = Table::fit(&columns, area.width);
+    table.head(buffer, area, 0);
+    table.row(buffer, area, 1, |column, width| {
+        cell(row, OF_FRAMES[column], width, theme)
+    });
+}
+
 fn cell(row: &TypeRow, column: usize, width: usize, theme: Theme) -> (String, Style) {
     let quirks = row.quirks.iter().map(|(_, count)| count).sum();
     let counted = |count: u64, some: Style| {
@@ -108,6 +123,9 @@ const COLUMNS: [Column; 14] = [
     Column::number(("p99ms", "p99 ms"), (5, 6), 5),
     Column::number(("maxms", "max ms"), (5, 6), 6),
 ];
+
+/// The columns that say something of a server's frames.
+const OF_FRAMES: [usize; 11] = [2, 3, 4, 5, 6, 7, 9, 10, 11, 12, 13];
 
 #[cfg(test)]
 mod tests {

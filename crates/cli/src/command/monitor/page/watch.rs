@@ -2,8 +2,8 @@
 
 use super::super::board::Board;
 use super::super::silence::QUIET_AFTER;
-use super::view::{Character, Troubles, TypeRow, View};
-use posewire::stats::{Statistics, StreamStatistics, SubjectStatistics};
+use super::view::{Character, Server, Troubles, TypeRow, View};
+use posewire::stats::{ServerStatistics, Statistics, StreamStatistics, SubjectStatistics};
 use posewire_motion::Frame;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -17,6 +17,8 @@ pub(super) struct Watch {
     statistics: Option<Arc<Statistics>>,
     /// Datagrams and bytes a second between the last two statistics.
     speed: (f64, f64),
+    /// The newest remark, and when it was first seen here.
+    remark: Option<(Arc<str>, Instant)>,
 }
 
 impl Watch {
@@ -26,6 +28,7 @@ impl Watch {
             seen: BTreeMap::new(),
             statistics: None,
             speed: (0.0, 0.0),
+            remark: None,
         }
     }
 
@@ -35,7 +38,10 @@ impl Watch {
         self.note_frames(board.frames(), now);
         let elapsed = now.saturating_duration_since(self.opened);
         let mut view = View {
+            protocol: board.protocol(),
             listening: board.listening().to_owned(),
+            opening: board.opening(),
+            remark: self.remark(board, now),
             elapsed,
             notice: board.notice().map(|notice| notice.to_string()),
             hint: (elapsed >= QUIET_AFTER && board.heard() == 0).then(|| board.hint()),
@@ -47,8 +53,21 @@ impl Watch {
         if let Some(statistics) = &self.statistics {
             view.datagrams = statistics.datagrams;
             view.troubles = troubles(statistics);
+            view.server = statistics.server.as_deref().map(server);
         }
         view
+    }
+
+    /// The newest remark, as long as it is new or nothing has come.
+    fn remark(&mut self, board: &Board, now: Instant) -> Option<String> {
+        let newest = board.remark()?;
+        match &self.remark {
+            Some((known, _)) if Arc::ptr_eq(known, &newest) => {}
+            _ => self.remark = Some((newest, now)),
+        }
+        let (text, since) = self.remark.as_ref()?;
+        let is_new = now.saturating_duration_since(*since) < REMARK_FOR;
+        (is_new || self.seen.is_empty()).then(|| text.to_string())
     }
 
     fn note_statistics(&mut self, newest: Option<Arc<Statistics>>) {
@@ -102,6 +121,7 @@ fn described_character(of_subject: &SubjectStatistics) -> Character {
         age: Duration::ZERO,
         timecode: of_subject.timecode,
         types: of_subject.streams.iter().map(type_row).collect(),
+        tracking: of_subject.tracking,
     }
 }
 
@@ -112,6 +132,14 @@ fn bare_character(frame: &Arc<Frame>) -> Character {
         age: Duration::ZERO,
         timecode: None,
         types: Vec::new(),
+        tracking: None,
+    }
+}
+
+fn server(of: &ServerStatistics) -> Server {
+    Server {
+        says: of.clone(),
+        frames: type_row(&of.frames),
     }
 }
 
@@ -142,6 +170,9 @@ fn troubles(statistics: &Statistics) -> Troubles {
         characters_refused: statistics.characters_refused,
     }
 }
+
+/// How long a remark stands on the page.
+const REMARK_FOR: Duration = Duration::from_secs(20);
 
 #[cfg(test)]
 mod tests {
