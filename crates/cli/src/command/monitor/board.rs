@@ -27,8 +27,19 @@ struct Newest {
     statistics: Option<Arc<Statistics>>,
     /// The newest word about the connection.
     notice: Option<Notice>,
-    remark: Option<Arc<str>>,
+    /// What the source has remarked, without repetitions, the newest last.
+    remarks: Vec<Arc<str>>,
     samples: u64,
+}
+
+impl Newest {
+    fn remark(&mut self, text: &str) {
+        self.remarks.retain(|known| **known != *text);
+        self.remarks.push(text.into());
+        if self.remarks.len() > MOST_REMARKS {
+            self.remarks.remove(0);
+        }
+    }
 }
 
 impl Board {
@@ -74,9 +85,9 @@ impl Board {
         self.lock().notice.clone()
     }
 
-    /// The newest remark about the source.
-    pub(super) fn remark(&self) -> Option<Arc<str>> {
-        self.lock().remark.clone()
+    /// The newest remarks about the source.
+    pub(super) fn remarks(&self) -> Vec<Arc<str>> {
+        self.lock().remarks.clone()
     }
 
     /// How much has come that could be read, in no particular unit: what grows is heard. A server that answers and sends
@@ -119,7 +130,7 @@ impl Sink for BoardSink {
                 }
             }
             Item::Statistics(statistics) => newest.statistics = Some(Arc::clone(statistics)),
-            Item::Notice(Notice::Remark { text }) => newest.remark = Some(text.as_str().into()),
+            Item::Notice(Notice::Remark { text }) => newest.remark(text),
             Item::Notice(notice) => newest.notice = Some(notice.clone()),
             _ => {}
         }
@@ -135,6 +146,8 @@ impl Sink for BoardSink {
 
 /// Four seconds of 16 people at 240 Hz.
 pub(super) const QUEUED_ITEMS: usize = 16_384;
+
+const MOST_REMARKS: usize = 4;
 
 #[cfg(test)]
 mod tests {

@@ -3,6 +3,7 @@
 use super::super::protocol::Protocol;
 use super::controls::{Controls, Pane};
 use super::layout::{Layout, Wanted, top};
+use super::problems::Problem;
 use super::table::{put, put_right, slot, width};
 use super::theme::{Theme, bold, faint};
 use super::view::{Character, View};
@@ -30,6 +31,7 @@ pub(super) fn draw(frame: &mut Frame, view: &View, controls: &Controls, theme: T
 fn draw_silence(buffer: &mut Buffer, area: Rect, view: &View, controls: &Controls, theme: Theme) {
     let wanted = Wanted {
         characters: 0,
+        share: 1,
         stream: 0,
         details: 0,
         problems: 0,
@@ -52,25 +54,12 @@ fn draw_stream(
     theme: Theme,
 ) -> &'static [Pane] {
     let problems = problems::of(view, selected);
-    let wanted = Wanted {
-        characters: lines(view.characters.len()),
-        stream: match view.protocol {
-            Protocol::Mxtp => lines(selected.types.len().max(1)) + 1,
-            Protocol::NatNet => server::LINES,
-        },
-        details: lines(match view.protocol {
-            Protocol::Mxtp => angles::count(selected),
-            Protocol::NatNet => positions::count(selected),
-        }),
-        problems: lines(problems.len()),
-    };
-    let layout = Layout::new(area, wanted, controls.pane);
+    let layout = Layout::new(area, wanted(view, selected, &problems), controls.pane);
     header::draw(buffer, layout.header, view, controls, theme);
     characters::draw(buffer, layout.characters, view, selected, theme);
     for (place, (pane, part)) in layout.panes.iter().enumerate() {
         let takes_turns = place + 1 == layout.panes.len();
-        let turns = if takes_turns { layout.turns } else { &[] };
-        let titles = (*pane, turns, view.protocol);
+        let titles = (*pane, if takes_turns { layout.turns } else { &[] }, view.protocol);
         let body = draw_title(buffer, *part, titles, selected, theme);
         match (pane, view.protocol) {
             (Pane::Stream, Protocol::Mxtp) => types::draw(buffer, body, selected, theme),
@@ -82,7 +71,31 @@ fn draw_stream(
         }
     }
     header::draw_keys(buffer, layout.footer, layout.turns.len(), view);
+    draw_hint(buffer, area, layout.characters.bottom(), view, theme);
     layout.turns
+}
+
+fn wanted(view: &View, selected: &Character, problems: &[Problem]) -> Wanted {
+    let (share, stream, details) = match view.protocol {
+        Protocol::Mxtp => (4, lines(selected.types.len().max(1)) + 1, angles::count(selected)),
+        Protocol::NatNet => (3, server::LINES, positions::count(selected)),
+    };
+    Wanted {
+        characters: lines(view.characters.len()),
+        share,
+        stream,
+        details: lines(details),
+        problems: lines(problems.len()),
+    }
+}
+
+/// Draws what to check, if there is something, from a few lines below the list on.
+fn draw_hint(buffer: &mut Buffer, area: Rect, list_end: u16, view: &View, theme: Theme) {
+    let Some(hint) = &view.hint else { return };
+    let mut rest = area;
+    top(&mut rest, list_end.saturating_sub(area.y) + NAME_OF_SERVER);
+    let place = if rest.height < ROOM_FOR_HINT { area } else { rest };
+    overlay::draw_hint(buffer, place, hint, &view.remarks, theme);
 }
 
 /// A rule with the pane's name, or with the names of all that take turns; gives what is below.
@@ -128,9 +141,15 @@ pub(super) fn rule(buffer: &mut Buffer, line: Rect) {
     put(buffer, line, &"─".repeat(line.width.into()), faint());
 }
 
+/// A title, and the lines of a server that are worth seeing beside a hint.
+const NAME_OF_SERVER: u16 = 4;
+const ROOM_FOR_HINT: u16 = 12;
+
 fn lines(count: usize) -> u16 {
     u16::try_from(count).unwrap_or(u16::MAX / 2)
 }
 
+#[cfg(test)]
+mod natnet_tests;
 #[cfg(test)]
 mod tests;

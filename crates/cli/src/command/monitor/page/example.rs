@@ -1,5 +1,7 @@
 //! Made-up views for tests.
 
+pub(super) mod natnet;
+
 use super::view::{Character, Troubles, TypeRow, View};
 use posewire::histogram::Summary;
 use posewire_motion::kinematics::complete;

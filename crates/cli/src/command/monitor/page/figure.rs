@@ -148,6 +148,10 @@ impl Picture<'_> {
                     let [from, to] = bone.map(|end| project(end, side));
                     draw_bone(context, (from, to), wide.then_some(scale), self.color);
                 }
+                for (end, name) in self.stick.axes.iter().zip(["x", "y", "z"]) {
+                    let [x, y] = project(*end, side);
+                    context.print(x, y, name);
+                }
                 if let Some(head) = self.stick.head {
                     let ([x, y], radius) = (project(head, side), self.stick.head_radius);
                     context.draw(&Circle {

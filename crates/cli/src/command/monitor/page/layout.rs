@@ -20,6 +20,8 @@ pub(super) struct Layout {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wanted {
     pub(super) characters: u16,
+    /// The list of characters may take one line in so many.
+    pub(super) share: u16,
     pub(super) stream: u16,
     /// Joint angles or positions, not lines: how many lines they take depends on the width.
     pub(super) details: u16,
@@ -39,7 +41,7 @@ impl Layout {
                 right(&mut rest, (area.width - BESIDE_FIGURE).clamp(FIGURE.0, FIGURE.1)),
             ));
         }
-        let most = (rest.height / 4).max(4);
+        let most = (rest.height / wanted.share).max(4);
         let characters = top(&mut rest, (wanted.characters + 2).min(most));
         let mut layout = Self {
             header,
@@ -152,6 +154,7 @@ mod tests {
 
     const WANTED: Wanted = Wanted {
         characters: 3,
+        share: 4,
         stream: 9,
         details: 28,
         problems: 4,

@@ -1,6 +1,7 @@
 //! Boxes above the page: what the keys do, and what to check when nothing comes.
 
 use super::super::protocol::Protocol;
+use super::problems::wrap;
 use super::table::{put, slot, width};
 use super::theme::{Theme, faint};
 use super::view::View;
@@ -18,21 +19,22 @@ pub(super) fn draw_help(buffer: &mut Buffer, area: Rect, protocol: Protocol, the
 /// Draws what is listened on and, after a while, what to check.
 pub(super) fn draw_silence(buffer: &mut Buffer, area: Rect, view: &View, theme: Theme) {
     if let Some(hint) = &view.hint {
-        let remark = view
-            .remark
-            .as_ref()
-            .map_or_else(String::new, |remark| format!("\n\n{remark}"));
-        draw_box(
-            buffer,
-            area,
-            (" nothing heard ", theme.warn()),
-            &format!("{hint}{remark}"),
-        );
+        draw_hint(buffer, area, hint, &view.remarks, theme);
     } else {
         let text = &view.opening;
         let margin = area.width.saturating_sub(width(text)) / 2;
         put(buffer, slot(area, area.height / 2, margin, area.width), text, faint());
     }
+}
+
+/// Draws what the source has remarked and what to check.
+pub(super) fn draw_hint(buffer: &mut Buffer, area: Rect, hint: &str, remarks: &[String], theme: Theme) {
+    let mut text = String::new();
+    for remark in remarks {
+        text.extend([remark, "\n\n"]);
+    }
+    text.push_str(hint);
+    draw_box(buffer, area, (" nothing heard ", theme.warn()), &text);
 }
 
 fn draw_box(buffer: &mut Buffer, area: Rect, (title, style): (&str, Style), text: &str) {
@@ -46,7 +48,7 @@ fn draw_box(buffer: &mut Buffer, area: Rect, (title, style): (&str, Style), text
     let room = usize::from(columns.saturating_sub(6).max(1));
     let lines: usize = text
         .lines()
-        .map(|line| usize::from(width(line)).div_ceil(room).max(1))
+        .map(|line| usize::from(width(line)).div_ceil(room).max(wrap(line, room).len()))
         .sum();
     let lines = u16::try_from(lines)
         .unwrap_or(u16::MAX)

@@ -43,16 +43,22 @@ pub(super) fn draw_segment(buffer: &mut Buffer, area: Rect, subject: &Character)
         return;
     };
     let Some(frame) = &subject.frame else { return };
-    let room = ROOM_FOR_NAME;
+    let room = usize::from(area.width.saturating_sub(NUMBERS)).clamp(ROOM_FOR_NAME.0, ROOM_FOR_NAME.1);
     let orientation = frame.orientation.first().copied().flatten();
     let turn = orientation.map_or_else(String::new, |turn| {
+        if room < ROOM_FOR_NAME.1 {
+            return format!(
+                "{:room$}{:7.2}{:7.2}{:7.2}{:7.2}",
+                "wxyz", turn.w, turn.x, turn.y, turn.z
+            );
+        }
         let label = "quaternion wxyz";
-        format!("{label:room$} {:7.3}{:8.3}{:8.3}{:8.3}", turn.w, turn.x, turn.y, turn.z)
+        format!("{label:room$}{:8.3}{:8.3}{:8.3}{:8.3}", turn.w, turn.x, turn.y, turn.z)
     });
     let name = cut(&segment.name, room);
     let lines = [
         (format!("{:room$}{:>8}{:>8}{:>8} m", "", "x", "y", "z"), faint()),
-        (row((&name, room), pelvis(frame), " not tracked"), Style::new()),
+        (row((&name, room), pelvis(frame), "not tracked"), Style::new()),
         (turn, Style::new()),
     ];
     for (line, (text, style)) in (0..).zip(lines) {
@@ -114,5 +120,7 @@ fn missing_center(character: &Character) -> &'static str {
     }
 }
 
-const ROOM_FOR_NAME: usize = 15;
+/// The columns that a segment's numbers take, the unit included.
+const NUMBERS: u16 = 30;
+const ROOM_FOR_NAME: (usize, usize) = (5, 15);
 const ROOM_FOR_LONG_LABEL: u16 = 43;

@@ -45,7 +45,7 @@ pub(super) fn of(view: &View, selected: &Character) -> Vec<Problem> {
     problems.extend(of_types(&selected.types, view.protocol));
     problems.extend(untracked(selected));
     problems.extend(quirks(&selected.types));
-    problems.extend(view.remark.iter().map(|text| Problem {
+    problems.extend(view.remarks.iter().map(|text| Problem {
         weight: Weight::Note,
         text: text.clone(),
     }));
@@ -323,7 +323,7 @@ fn cut(text: &str, room: u16) -> String {
 }
 
 /// Breaks a text between words into lines of at most `room` characters, if its words are not longer.
-fn wrap(text: &str, room: usize) -> Vec<String> {
+pub(super) fn wrap(text: &str, room: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {
         let line = lines

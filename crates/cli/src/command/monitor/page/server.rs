@@ -14,6 +14,7 @@ use posewire::stats::ServerStatistics;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
+use std::time::Duration;
 
 /// The lines that it takes.
 pub(super) const LINES: u16 = 11;
@@ -97,18 +98,21 @@ fn draw_latencies(buffer: &mut Buffer, area: Rect, server: &ServerStatistics) {
         ),
     ];
     for ((line, (name, summary, note)), unknown) in (1..).zip(rows).zip(unknown) {
-        let note = unknown.unwrap_or(note);
         table.row(buffer, area, line, |column, _| cell(name, summary, note, column));
+        if let Some(unknown) = unknown {
+            put(buffer, slot(area, line, UNKNOWN_AT, area.width), unknown, faint());
+        }
     }
 }
 
 fn cell(name: &str, summary: Option<Summary>, note: &str, column: usize) -> (String, Style) {
-    let number = |of: fn(Summary) -> std::time::Duration| match summary {
-        Some(summary) => (text::milliseconds(of(summary)), Style::new()),
-        None => ("-".to_owned(), faint()),
+    let number = |of: fn(Summary) -> Duration| {
+        let number = summary.map(|summary| text::milliseconds(of(summary)));
+        (number.unwrap_or_default(), Style::new())
     };
     match column {
         0 => (name.to_owned(), Style::new()),
+        _ if summary.is_none() => (String::new(), faint()),
         1 => number(|summary| summary.p50),
         2 => number(|summary| summary.p99),
         3 => number(|summary| summary.max),
@@ -116,6 +120,8 @@ fn cell(name: &str, summary: Option<Summary>, note: &str, column: usize) -> (Str
     }
 }
 
+/// The column where it is said why a latency is unknown.
+const UNKNOWN_AT: u16 = 20;
 const COLUMNS: [Column; 5] = [
     Column::text("latency", (16, 18), 0),
     Column::number(("p50ms", "p50 ms"), (5, 6), 1),

@@ -7,6 +7,8 @@ use posewire_motion::{DQuat, DVec3, Frame, Segment};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Stick {
     pub(super) bones: Vec<[DVec3; 2]>,
+    /// The ends of the axes x, y and z of a body without bones.
+    pub(super) axes: Vec<DVec3>,
     /// Markers.
     pub(super) dots: Vec<DVec3>,
     /// The middle of the head.
@@ -32,8 +34,10 @@ impl Stick {
             stick.bones.extend(body.tip(place));
         }
         stick.head = body.head(stick.head_radius);
-        if stick.bones.is_empty() {
+        let is_single = frame.subject.skeleton.segments.len() == 1;
+        if stick.bones.is_empty() || is_single {
             stick.bones = body.axes();
+            stick.axes = stick.bones.iter().take(3).map(|[_, end]| *end).collect();
         }
         let markers = frame.markers.iter().filter_map(|marker| marker.position);
         stick.dots = markers.filter_map(|at| body.seen(at)).collect();

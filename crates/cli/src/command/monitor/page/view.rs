@@ -24,7 +24,7 @@ pub(super) struct View {
     /// The last word of the source about its connection, as "connected to ...".
     pub(super) notice: Option<String>,
     /// What the source has remarked lately.
-    pub(super) remark: Option<String>,
+    pub(super) remarks: Vec<String>,
     /// What to check, when nothing has come for a while.
     pub(super) hint: Option<String>,
     /// The server, for protocols that have one.

@@ -17,8 +17,8 @@ pub(super) struct Watch {
     statistics: Option<Arc<Statistics>>,
     /// Datagrams and bytes a second between the last two statistics.
     speed: (f64, f64),
-    /// The newest remark, and when it was first seen here.
-    remark: Option<(Arc<str>, Instant)>,
+    /// What the source has remarked, and when that was first seen here.
+    remarks: Vec<(Arc<str>, Instant)>,
 }
 
 impl Watch {
@@ -28,7 +28,7 @@ impl Watch {
             seen: BTreeMap::new(),
             statistics: None,
             speed: (0.0, 0.0),
-            remark: None,
+            remarks: Vec::new(),
         }
     }
 
@@ -41,7 +41,7 @@ impl Watch {
             protocol: board.protocol(),
             listening: board.listening().to_owned(),
             opening: board.opening(),
-            remark: self.remark(board, now),
+            remarks: self.remarks(board, now),
             elapsed,
             notice: board.notice().map(|notice| notice.to_string()),
             hint: (elapsed >= QUIET_AFTER && board.heard() == 0).then(|| board.hint()),
@@ -58,16 +58,21 @@ impl Watch {
         view
     }
 
-    /// The newest remark, as long as it is new or nothing has come.
-    fn remark(&mut self, board: &Board, now: Instant) -> Option<String> {
-        let newest = board.remark()?;
-        match &self.remark {
-            Some((known, _)) if Arc::ptr_eq(known, &newest) => {}
-            _ => self.remark = Some((newest, now)),
+    /// The remarks that are new, or all as long as nothing has come.
+    fn remarks(&mut self, board: &Board, now: Instant) -> Vec<String> {
+        let newest = board.remarks();
+        self.remarks
+            .retain(|(known, _)| newest.iter().any(|one| Arc::ptr_eq(one, known)));
+        for remark in newest {
+            if !self.remarks.iter().any(|(known, _)| Arc::ptr_eq(known, &remark)) {
+                self.remarks.push((remark, now));
+            }
         }
-        let (text, since) = self.remark.as_ref()?;
-        let is_new = now.saturating_duration_since(*since) < REMARK_FOR;
-        (is_new || self.seen.is_empty()).then(|| text.to_string())
+        let shown = self.remarks.iter().filter(|(_, since)| {
+            let is_new = now.saturating_duration_since(*since) < REMARK_FOR;
+            is_new || self.seen.is_empty()
+        });
+        shown.map(|(text, _)| text.to_string()).collect()
     }
 
     fn note_statistics(&mut self, newest: Option<Arc<Statistics>>) {

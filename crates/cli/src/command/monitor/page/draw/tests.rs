@@ -10,7 +10,7 @@ use ratatui::backend::TestBackend;
 use std::sync::Arc;
 use std::time::Duration;
 
-fn picture((width, height): (u16, u16), view: &View, controls: &Controls) -> String {
+pub(super) fn picture((width, height): (u16, u16), view: &View, controls: &Controls) -> String {
     let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
     terminal
         .draw(|frame| _ = draw(frame, view, controls, Theme::True))
@@ -21,7 +21,7 @@ fn picture((width, height): (u16, u16), view: &View, controls: &Controls) -> Str
     lines.collect::<Vec<_>>().join("\n")
 }
 
-fn with(pane: Pane) -> Controls {
+pub(super) fn with(pane: Pane) -> Controls {
     Controls {
         pane,
         ..Controls::default()
@@ -29,7 +29,7 @@ fn with(pane: Pane) -> Controls {
 }
 
 #[track_caller]
-fn assert_shows(picture: &str, parts: &[&str]) {
+pub(super) fn assert_shows(picture: &str, parts: &[&str]) {
     for part in parts {
         assert!(picture.contains(part), "{part:?} is not in\n{picture}");
     }
