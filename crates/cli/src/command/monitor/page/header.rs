@@ -4,7 +4,7 @@ use super::controls::Controls;
 use super::table::{put, put_right, slot, width};
 use super::text;
 use super::theme::{Theme, bold, faint};
-use super::view::View;
+use super::view::{Server, View};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
@@ -25,20 +25,19 @@ pub(super) fn draw(buffer: &mut Buffer, line: Rect, view: &View, controls: &Cont
         }
     }
     pieces.push(Piece::new(5, &text::clock(view.elapsed), Style::new()));
-    let datagrams = match &view.server {
-        Some(server) => format!(
-            "{} frames, {} Hz",
-            server.frames.received,
-            text::rate(server.frames.rate_hz)
+    let bytes = text::bytes_per_second(view.bytes_per_second);
+    let (come, ranks) = match &view.server {
+        Some(Server { frames, .. }) => (
+            format!("{} frames, {} Hz", frames.received, text::rate(frames.rate_hz)),
+            (3, 4),
         ),
-        None => format!("{} datagrams, {:.0}/s", view.datagrams, view.datagrams_per_second),
+        None => (
+            format!("{} datagrams, {:.0}/s", view.datagrams, view.datagrams_per_second),
+            (4, 3),
+        ),
     };
-    pieces.push(Piece::new(4, &datagrams, Style::new()));
-    pieces.push(Piece::new(
-        3,
-        &text::bytes_per_second(view.bytes_per_second),
-        Style::new(),
-    ));
+    pieces.push(Piece::new(ranks.0, &come, Style::new()));
+    pieces.push(Piece::new(ranks.1, &bytes, Style::new()));
     if let Some(notice) = &view.notice {
         pieces.push(Piece::new(6, notice, faint()));
     }
