@@ -1,7 +1,7 @@
 //! What every verb needs of its surroundings: the wish to stop, the terminal, people to talk to.
 
 use posewire::stop::Stop;
-use posewire::{Item, Result, Sink};
+use posewire::{Item, Result, Sink, SourceId};
 use std::io::{IsTerminal, Write};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -57,7 +57,7 @@ impl Teller {
 }
 
 impl Sink for Teller {
-    fn accept(&mut self, item: &Item) -> Result<()> {
+    fn accept(&mut self, _: SourceId, item: &Item) -> Result<()> {
         match item {
             Item::Notice(notice) => {
                 end_progress();

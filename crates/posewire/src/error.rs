@@ -81,6 +81,9 @@ pub enum Error {
         /// Each of them, as `Motive at 10.0.0.5:1510`.
         found: Vec<String>,
     },
+    /// A second source for a sink that can send one alone.
+    #[error("expected one source to stream, found several, whose subjects would share their numbers")]
+    SeveralSources,
     /// A network interface that is not there, or lacks an address of the needed kind.
     #[error("network interface {name:?} {problem}")]
     Interface {
@@ -185,6 +188,16 @@ pub enum Error {
         /// The speed as given.
         found: String,
     },
+    /// A plan of faults that is none.
+    #[error("faults: expected {expected} at character {offset}, found {found:?}")]
+    Faults {
+        /// Where in the text, in bytes from 0.
+        offset: usize,
+        /// What must stand there.
+        expected: &'static str,
+        /// What does.
+        found: String,
+    },
 }
 
 impl Error {
@@ -203,6 +216,7 @@ impl Error {
             Self::UnknownFormat { path, .. } => Some(path_help(path)),
             Self::Resolve { host, .. } => Some(format!("check the spelling of {host:?}, or use the numeric address")),
             Self::SeveralServers { .. } => Some("name one of them, as in natnet://HOST:1510".into()),
+            Self::SeveralSources => Some("stream each by itself, to targets of its own".into()),
             Self::Interface { available, .. } => Some(format!("this machine has: {}", available.join(", "))),
             Self::Socket {
                 action, address, kind, ..
@@ -217,6 +231,7 @@ impl Error {
             Self::Character { .. } => Some("start at a lower --character, or stream fewer people".into()),
             Self::Write { .. } => Some("make room there, or send the output elsewhere".into()),
             Self::Speed { .. } => Some("1 is real time, 0.5 half as fast".into()),
+            Self::Faults { .. } => Some("as in --faults loss=1%,reorder=0.5%,reset@10s,seed=7".into()),
         }
     }
 
@@ -260,6 +275,7 @@ impl Error {
                 | Self::NotATarget { .. }
                 | Self::Character { .. }
                 | Self::Speed { .. }
+                | Self::Faults { .. }
         )
     }
 

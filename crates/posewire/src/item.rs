@@ -1,16 +1,24 @@
 //! What travels from a source to its sinks.
 
-use crate::Error;
 use crate::stats::Statistics;
+use crate::{Datagram, Error};
 use posewire_motion::{Frame, Subject};
 use std::fmt;
 use std::sync::Arc;
 use std::time::Instant;
 
+/// Which source of a session something is from: its place among the sources that the session was started with.
+///
+/// A subject is known by its number within its source; another source may have another subject of the same number.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SourceId(pub u16);
+
 /// What travels from a source to its sinks: shared, so that a clone for another sink copies no data.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum Item {
+    /// A datagram as it arrived, before what was read from it; only for sinks that [want](crate::Sink::wants) datagrams.
+    Datagram(Arc<Datagram>),
     /// A subject that is new, or whose description has changed. It comes before its first frame.
     Subject(Arc<Subject>),
     /// One sample of one subject.
@@ -54,6 +62,11 @@ pub enum Notice {
         /// The address and the interface that it was joined on, as `192.168.1.5 (eth0)`.
         interface: String,
     },
+    /// The source has failed and gives nothing more, while others go on.
+    Failed {
+        /// What went wrong.
+        error: Error,
+    },
     /// Something about the source that people should know, in a sentence without a full stop.
     Remark {
         /// The sentence.
@@ -73,6 +86,7 @@ impl fmt::Display for Notice {
             Self::Disconnected { peer, reason } => write!(f, "lost the connection to {peer}: {reason}"),
             Self::NotConnected { error } => write!(f, "{error}; trying again"),
             Self::Joined { group, interface } => write!(f, "joined {group} on {interface}"),
+            Self::Failed { error } => write!(f, "{error}; nothing more comes from there"),
             Self::Remark { text } => f.write_str(text),
             Self::Damaged { problem } => write!(f, "the file is damaged: {problem}"),
         }

@@ -3,18 +3,19 @@
 //! This crate is the only place of the project with sockets, files, threads and clocks; the
 //! protocol crates below it are pure.
 //!
-//! A [`Source`] feeds any number of [`Sink`]s in a [`Session`], each on a thread of its own behind a bounded queue:
+//! Any number of [`Source`]s feed any number of [`Sink`]s in a [`Session`], each on a thread of its own, each sink behind a
+//! bounded queue:
 //!
 //! ```
 //! use posewire::source::PlaybackOptions;
 //! use posewire::stop::Stop;
-//! use posewire::{Item, Session, Sink, Source};
+//! use posewire::{Item, Session, Sink, Source, SourceId};
 //! use std::time::Duration;
 //!
 //! struct Hips;
 //!
 //! impl Sink for Hips {
-//!     fn accept(&mut self, item: &Item) -> posewire::Result<()> {
+//!     fn accept(&mut self, _: SourceId, item: &Item) -> posewire::Result<()> {
 //!         if let Item::Frame { frame, .. } = item {
 //!             println!("{} {:?}", frame.subject.name, frame.position[0]);
 //!         }
@@ -24,14 +25,16 @@
 //!
 //! let options = PlaybackOptions { duration: Some(Duration::from_millis(50)), ..PlaybackOptions::default() };
 //! let source = Source::open(&"synthetic:walk?people=2&rate=240".parse()?, &options)?;
-//! let outcome = Session::start(source, vec![Box::new(Hips)], Stop::new()).wait()?;
+//! let outcome = Session::start([source], vec![Box::new(Hips)], Stop::new()).wait()?;
 //! assert_eq!(outcome.dropped, 0);
 //! # Ok::<(), posewire::Error>(())
 //! ```
 
 pub mod clock;
+mod datagram;
 pub mod endpoint;
 mod error;
+pub mod faults;
 pub mod histogram;
 mod item;
 pub mod net;
@@ -43,10 +46,11 @@ pub mod source;
 pub mod stats;
 pub mod stop;
 
+pub use datagram::{Datagram, Wire};
 pub use error::{Error, Result};
-pub use item::{Item, Notice};
+pub use item::{Item, Notice, SourceId};
 pub use session::{Outcome, Session};
-pub use sink::Sink;
+pub use sink::{Sink, Wants};
 pub use source::Source;
 
 #[cfg(doctest)]

@@ -1,19 +1,21 @@
-//! A source and the sinks it feeds, each on a thread of its own.
+//! Sources and the sinks they feed, each on a thread of its own.
 
 use crate::queue::{Closed, Consumer, Producer, bounded};
 use crate::stop::Stop;
-use crate::{Item, Result, Sink, Source};
+use crate::{Datagram, Item, Notice, Result, Sink, Source, SourceId, Wants};
+use std::sync::Arc;
 use std::thread::{self, JoinHandle};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-/// A source and the sinks it feeds, running.
+/// Sources and the sinks they feed, running.
 ///
-/// Data goes one way: the source's thread pushes items into one bounded queue per sink, and each sink's thread takes
-/// them out. The session ends when the source has no more, when [`Stop`] is set, or when a sink fails.
+/// Data goes one way: each source's thread pushes items into one bounded queue per sink, and each sink's thread takes
+/// them out. The session ends when no source has more, when [`Stop`] is set, or when a sink fails. A source that fails
+/// ends alone: the others go on, and the sinks are told with [`Notice::Failed`].
 #[derive(Debug)]
 pub struct Session {
     stop: Stop,
-    source: JoinHandle<Result<()>>,
+    sources: Vec<JoinHandle<Result<()>>>,
     sinks: Vec<JoinHandle<Result<u64>>>,
 }
 
@@ -25,35 +27,39 @@ pub struct Outcome {
 }
 
 impl Session {
-    /// Starts a source and its sinks. `stop` ends it, from any thread.
-    pub fn start(source: Source, sinks: Vec<Box<dyn Sink>>, stop: Stop) -> Self {
-        let live = source.is_live();
-        let (producers, sinks) = sinks.into_iter().map(|sink| start_sink(sink, stop.clone())).unzip();
-        let mut outlet = Outlet {
-            producers,
-            live,
-            batch: Vec::new(),
+    /// Starts sources and their sinks. `stop` ends all of it, from any thread.
+    ///
+    /// The sinks know each source by its [`SourceId`], which is its place in `sources`; those beyond the 65,536th, which
+    /// no machine has the ports for, are not started.
+    pub fn start(sources: impl IntoIterator<Item = Source>, sinks: Vec<Box<dyn Sink>>, stop: Stop) -> Self {
+        let (feeders, sinks): (Vec<_>, _) = sinks.into_iter().map(|sink| start_sink(sink, stop.clone())).unzip();
+        let sources: Vec<_> = (0..=u16::MAX).map(SourceId).zip(sources).collect();
+        let alone = sources.len() == 1;
+        let start = |(id, source): (SourceId, Source)| {
+            let outlet = Outlet::new(id, source.is_live(), feeders.clone());
+            let stop = stop.clone();
+            thread::spawn(move || run_source(source, outlet, alone, &stop))
         };
-        let source_stop = stop.clone();
-        let source = thread::spawn(move || source.run(&mut outlet, &source_stop));
-        Self { stop, source, sinks }
+        let sources = sources.into_iter().map(start).collect();
+        Self { stop, sources, sinks }
     }
 
-    /// Whether the source still runs.
+    /// Whether a source still runs.
     pub fn is_running(&self) -> bool {
-        !self.source.is_finished()
+        self.sources.iter().any(|source| !source.is_finished())
     }
 
-    /// Waits for the source and every sink to end.
+    /// Waits for every source and every sink to end.
     ///
     /// # Errors
-    /// The first failure of a sink, else that of the source.
+    /// The first failure of a sink, else that of a source.
     pub fn wait(self) -> Result<Outcome> {
-        let source = join(self.source);
+        let sources: Vec<_> = self.sources.into_iter().map(join).collect();
         self.stop.stop();
         let sinks: Vec<_> = self.sinks.into_iter().map(join).collect();
         let dropped = sinks.into_iter().sum::<Result<u64>>()?;
-        source.map(|()| Outcome { dropped })
+        let sources: Result<()> = sources.into_iter().collect();
+        sources.map(|()| Outcome { dropped })
     }
 }
 
@@ -62,9 +68,20 @@ fn join<T>(thread: JoinHandle<T>) -> T {
     thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
 }
 
-fn start_sink(mut sink: Box<dyn Sink>, stop: Stop) -> (Producer<Item>, JoinHandle<Result<u64>>) {
+fn run_source(source: Source, mut outlet: Outlet, alone: bool, stop: &Stop) -> Result<()> {
+    let ran = source.run(&mut outlet, stop);
+    if let (Err(error), false) = (&ran, alone) {
+        let error = error.clone();
+        outlet.push(Item::Notice(Notice::Failed { error }));
+        outlet.finish();
+    }
+    ran
+}
+
+fn start_sink(mut sink: Box<dyn Sink>, stop: Stop) -> (Feeder, JoinHandle<Result<u64>>) {
     let (policy, capacity) = sink.queue();
     let (producer, consumer) = bounded(capacity, policy);
+    let wants = sink.wants();
     let thread = thread::spawn(move || {
         let fed = feed(sink.as_mut(), &consumer);
         if fed.is_err() {
@@ -74,31 +91,74 @@ fn start_sink(mut sink: Box<dyn Sink>, stop: Stop) -> (Producer<Item>, JoinHandl
         let finished = sink.finish();
         fed.and(finished).map(|()| consumer.dropped())
     });
-    (producer, thread)
+    (Feeder { producer, wants }, thread)
 }
 
-fn feed(sink: &mut dyn Sink, consumer: &Consumer<Item>) -> Result<()> {
+fn feed(sink: &mut dyn Sink, consumer: &Consumer<(SourceId, Item)>) -> Result<()> {
     let mut items = Vec::new();
-    while consumer.drain(&mut items, Duration::from_hours(1)).is_open() {
-        for item in items.drain(..) {
-            sink.accept(&item)?;
+    let mut dropped = 0;
+    while consumer.drain(&mut items, patience(sink)).is_open() {
+        let told = std::mem::replace(&mut dropped, consumer.dropped());
+        if dropped > told {
+            sink.dropped(dropped);
+        }
+        for (source, item) in items.drain(..) {
+            sink.accept(source, &item)?;
+        }
+        if patience(sink).is_zero() {
+            sink.handle_timeout()?;
         }
     }
     Ok(())
 }
 
+/// How long the next item may be waited for.
+fn patience(sink: &dyn Sink) -> Duration {
+    let until = |at: Instant| at.saturating_duration_since(Instant::now());
+    sink.timeout().map_or(Duration::from_hours(1), until)
+}
+
+/// The way to one sink.
+#[derive(Clone, Debug)]
+struct Feeder {
+    producer: Producer<(SourceId, Item)>,
+    wants: Wants,
+}
+
 /// A source's end of every sink's queue.
 #[derive(Debug)]
 pub(crate) struct Outlet {
-    producers: Vec<Producer<Item>>,
+    source: SourceId,
     live: bool,
-    batch: Vec<Item>,
+    feeders: Vec<Feeder>,
+    wants_datagrams: bool,
+    batch: Vec<(SourceId, Item)>,
 }
 
+/// How a queue is given a batch.
+type Push = fn(&Producer<(SourceId, Item)>, &mut Vec<(SourceId, Item)>) -> Result<(), Closed>;
+
 impl Outlet {
+    fn new(source: SourceId, live: bool, feeders: Vec<Feeder>) -> Self {
+        Self {
+            source,
+            live,
+            wants_datagrams: feeders.iter().any(|feeder| feeder.wants.datagrams),
+            feeders,
+            batch: Vec::new(),
+        }
+    }
+
     /// Adds an item to the batch that the next [`flush`](Self::flush) hands over.
     pub(crate) fn push(&mut self, item: Item) {
-        self.batch.push(item);
+        self.batch.push((self.source, item));
+    }
+
+    /// Adds a datagram to the batch, if any sink wants such.
+    pub(crate) fn push_datagram(&mut self, datagram: impl FnOnce() -> Datagram) {
+        if self.wants_datagrams {
+            self.push(Item::Datagram(Arc::new(datagram())));
+        }
     }
 
     /// Hands the batch to every sink; `false` when no sink is left.
@@ -117,57 +177,96 @@ impl Outlet {
         self.hand_over(Producer::push_all);
     }
 
-    fn hand_over(&mut self, push: fn(&Producer<Item>, &mut Vec<Item>) -> Result<(), Closed>) -> bool {
-        let Self { producers, batch, .. } = self;
+    fn hand_over(&mut self, push: Push) -> bool {
+        let Self { feeders, batch, .. } = self;
         if batch.is_empty() {
-            return !producers.is_empty();
+            return !feeders.is_empty();
         }
-        let last = producers.len().saturating_sub(1);
+        let last = feeders.len().saturating_sub(1);
         let mut place = 0;
-        producers.retain(|producer| {
+        feeders.retain(|feeder| {
+            let wanted = |(_, item): &(SourceId, Item)| feeder.wants.includes(item);
             let pushed = if place == last {
-                push(producer, batch)
+                batch.retain(wanted);
+                push(&feeder.producer, batch)
             } else {
-                push(producer, &mut batch.clone())
+                let mut share = batch.iter().filter(|item| wanted(item)).cloned().collect();
+                push(&feeder.producer, &mut share)
             };
             place += 1;
             pushed.is_ok()
         });
         batch.clear();
-        !producers.is_empty()
+        !feeders.is_empty()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Notice;
+    use crate::Wire;
     use crate::queue::Policy;
+    use posewire_motion::Stamp;
 
     fn notice(number: u32) -> Item {
         let problem = number.to_string();
         Item::Notice(Notice::Damaged { problem })
     }
 
+    fn feeder(capacity: usize, wants: Wants) -> (Feeder, Consumer<(SourceId, Item)>) {
+        let (producer, consumer) = bounded(capacity, Policy::Lossless);
+        (Feeder { producer, wants }, consumer)
+    }
+
+    fn drained(consumer: &Consumer<(SourceId, Item)>) -> Vec<String> {
+        let mut arrived = Vec::new();
+        while consumer.drain(&mut arrived, Duration::from_mins(1)).is_open() {}
+        arrived.iter().map(|(_, item)| format!("{item:?}")).collect()
+    }
+
     #[test]
     fn a_live_source_drops_for_a_slow_sink_but_not_its_last_words() {
-        let (producer, consumer) = bounded(1, Policy::Lossless);
-        let mut outlet = Outlet {
-            producers: vec![producer],
-            live: true,
-            batch: Vec::new(),
-        };
+        let (feeder, consumer) = feeder(1, Wants::default());
+        let mut outlet = Outlet::new(SourceId(0), true, vec![feeder]);
         (0..3).for_each(|number| outlet.push(notice(number)));
         assert!(outlet.flush());
         outlet.push(notice(3));
 
-        let mut arrived = Vec::new();
-        thread::scope(|scope| {
+        let arrived = thread::scope(|scope| {
             scope.spawn(move || outlet.finish());
-            while consumer.drain(&mut arrived, Duration::from_mins(1)).is_open() {}
+            drained(&consumer)
         });
-        let arrived: Vec<_> = arrived.iter().map(|item| format!("{item:?}")).collect();
         assert_eq!(arrived, [0, 3].map(|number| format!("{:?}", notice(number))));
         assert_eq!(consumer.dropped(), 2);
+    }
+
+    #[test]
+    fn datagrams_reach_only_the_sinks_that_want_them() {
+        let datagram = || Datagram {
+            wire: Wire::MxtpUdp,
+            from: ([127, 0, 0, 1], 1).into(),
+            to: ([127, 0, 0, 1], 2).into(),
+            received: Stamp(3),
+            bytes: [4].into(),
+        };
+        let (recorder, recorded) = feeder(8, Wants::ALL);
+        let (viewer, viewed) = feeder(8, Wants::default());
+        let mut outlet = Outlet::new(SourceId(0), true, vec![recorder, viewer]);
+        outlet.push_datagram(datagram);
+        outlet.push(notice(0));
+        outlet.flush();
+        drop(outlet);
+        let raw = format!("{:?}", Item::Datagram(Arc::new(datagram())));
+        assert_eq!(drained(&recorded), [raw, format!("{:?}", notice(0))]);
+        assert_eq!(drained(&viewed), [format!("{:?}", notice(0))]);
+    }
+
+    #[test]
+    fn where_nobody_wants_datagrams_none_are_made() {
+        let (viewer, viewed) = feeder(8, Wants::default());
+        let mut outlet = Outlet::new(SourceId(0), true, vec![viewer]);
+        outlet.push_datagram(|| unreachable!("nobody wants it"));
+        drop(outlet);
+        assert!(drained(&viewed).is_empty());
     }
 }

@@ -25,7 +25,7 @@ pub(super) fn run(arguments: &Demo) -> anyhow::Result<End> {
     say(format_args!("{walk} is streamed to {}", monitored.endpoint()));
 
     context::stop_after(&stop, arguments.duration);
-    let streaming = Session::start(walkers, vec![Box::new(sink)], stop.clone());
+    let streaming = Session::start([walkers], vec![Box::new(sink)], stop.clone());
     let end = monitor::show(
         monitored,
         View::choose(arguments.json, false, arguments.plain),

@@ -44,7 +44,7 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
     let teller = Teller::default();
     let mut boxes = sinks.into_boxes();
     boxes.push(Box::new(teller.clone()));
-    let session = Session::start(source, boxes, stop.clone());
+    let session = Session::start([source], boxes, stop.clone());
     while !stop.wait(Duration::from_millis(200)) && session.is_running() {
         let progress = progress.read();
         peers.tell(&progress);

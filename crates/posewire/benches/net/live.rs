@@ -13,7 +13,7 @@ use posewire::endpoint::Endpoint;
 use posewire::source::PlaybackOptions;
 use posewire::stats::Statistics;
 use posewire::stop::Stop;
-use posewire::{Item, Result, Session, Sink, Source};
+use posewire::{Item, Result, Session, Sink, Source, SourceId};
 use std::net::{Ipv4Addr, SocketAddr};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
@@ -116,7 +116,7 @@ fn take_source(sending: Sending) -> Turn {
     let (source, flood) = (open(), Flood::new(sending));
     let (tally, stop) = (Tally::default(), Stop::new());
     flood.during(address(&source), || {
-        let session = Session::start(source, vec![Box::new(tally.clone())], stop.clone());
+        let session = Session::start([source], vec![Box::new(tally.clone())], stop.clone());
         thread::sleep(TURN);
         stop.stop();
         let outcome = session.wait().expect("a working socket");
@@ -163,7 +163,7 @@ impl Tally {
 }
 
 impl Sink for Tally {
-    fn accept(&mut self, item: &Item) -> Result<()> {
+    fn accept(&mut self, _: SourceId, item: &Item) -> Result<()> {
         match item {
             Item::Frame { .. } => {
                 self.frames.fetch_add(1, Ordering::Relaxed);

@@ -11,7 +11,7 @@ use posewire::queue::Policy;
 use posewire::sink::{MxtpSink, MxtpSinkOptions};
 use posewire::source::PlaybackOptions;
 use posewire::stop::Stop;
-use posewire::{Item, Result, Session, Sink, Source};
+use posewire::{Item, Result, Session, Sink, Source, SourceId};
 use std::net::{Ipv4Addr, UdpSocket};
 use std::sync::{Arc, Mutex};
 use std::thread;
@@ -71,7 +71,7 @@ fn stream(lateness: &Arc<Mutex<DurationHistogram>>) {
         ..PlaybackOptions::default()
     };
     let source = Source::open(&people, &playback).expect("the walker");
-    let session = Session::start(source, vec![Box::new(sink)], Stop::new());
+    let session = Session::start([source], vec![Box::new(sink)], Stop::new());
     let outcome = session.wait().expect("a stream over loopback");
     assert_eq!(outcome.dropped, 0);
 }
@@ -92,8 +92,8 @@ impl Sink for Timed {
         self.sink.queue()
     }
 
-    fn accept(&mut self, item: &Item) -> Result<()> {
-        self.sink.accept(item)?;
+    fn accept(&mut self, source: SourceId, item: &Item) -> Result<()> {
+        self.sink.accept(source, item)?;
         if let Item::Frame { due: Some(due), .. } = item {
             let late = Instant::now().saturating_duration_since(*due);
             self.lateness.lock().expect("no panic").record(late);

@@ -96,6 +96,7 @@ impl TcpIncoming {
 pub struct TcpConnection {
     stream: TcpStream,
     peer: SocketAddr,
+    local: SocketAddr,
     read_timeout: Option<Duration>,
     write_timeout: Option<Duration>,
 }
@@ -156,6 +157,11 @@ impl TcpConnection {
         self.peer
     }
 
+    /// This side's address.
+    pub fn local_address(&self) -> SocketAddr {
+        self.local
+    }
+
     fn over(stream: TcpStream, peer: SocketAddr) -> io::Result<Self> {
         // Some systems hand the listener's mode on to what it accepts.
         stream.set_nonblocking(false)?;
@@ -163,6 +169,7 @@ impl TcpConnection {
         let keep_alive = TcpKeepalive::new().with_time(KEEP_ALIVE);
         SockRef::from(&stream).set_tcp_keepalive(&keep_alive)?;
         Ok(Self {
+            local: stream.local_addr()?,
             stream,
             peer,
             read_timeout: None,

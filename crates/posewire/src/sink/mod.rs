@@ -9,7 +9,8 @@ pub use natnet::{NatNetSink, NatNetSinkOptions};
 pub use progress::{ClientProgress, ClientState, LeftOut, Progress, TargetProgress};
 
 use crate::queue::Policy;
-use crate::{Item, Result};
+use crate::{Error, Item, Result, SourceId};
+use std::time::Instant;
 
 /// Something that takes what a source gives: a network target, a file, a page, your code.
 ///
@@ -23,11 +24,36 @@ pub trait Sink: Send {
         (Policy::Lossless, 1024)
     }
 
-    /// Takes one item.
+    /// Which items it takes. What no sink wants costs nothing.
+    fn wants(&self) -> Wants {
+        Wants::default()
+    }
+
+    /// Takes one item of a source.
+    ///
+    /// Numbers of subjects are those of the source: two sources may have different subjects of the same number.
     ///
     /// # Errors
     /// Whatever keeps the sink from going on; it is then finished and the session ends.
-    fn accept(&mut self, item: &Item) -> Result<()>;
+    fn accept(&mut self, source: SourceId, item: &Item) -> Result<()>;
+
+    /// Hears that its queue had no room for items of a live source: `dropped` of them since the start.
+    fn dropped(&mut self, dropped: u64) {
+        let _ = dropped;
+    }
+
+    /// When it has something to do even if no item comes.
+    fn timeout(&self) -> Option<Instant> {
+        None
+    }
+
+    /// Does what was to be done at its [`timeout`](Self::timeout).
+    ///
+    /// # Errors
+    /// As [`accept`](Self::accept).
+    fn handle_timeout(&mut self) -> Result<()> {
+        Ok(())
+    }
 
     /// Ends the sink's work: everything accepted is on its way, files are closed.
     ///
@@ -35,5 +61,56 @@ pub trait Sink: Send {
     /// What could not be brought to its end.
     fn finish(&mut self) -> Result<()> {
         Ok(())
+    }
+}
+
+/// Which items a sink takes. Statistics and notices come to every sink.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wants {
+    /// Subjects and their frames.
+    pub frames: bool,
+    /// Datagrams as they arrived, each before what was read from it.
+    pub datagrams: bool,
+}
+
+impl Wants {
+    /// Everything there is.
+    pub const ALL: Self = Self {
+        frames: true,
+        datagrams: true,
+    };
+
+    /// Whether `item` is wanted.
+    pub fn includes(self, item: &Item) -> bool {
+        match item {
+            Item::Datagram(_) => self.datagrams,
+            Item::Subject(_) | Item::Frame { .. } => self.frames,
+            Item::Statistics(_) | Item::Notice(_) => true,
+        }
+    }
+}
+
+impl Default for Wants {
+    /// Frames, and no datagrams.
+    fn default() -> Self {
+        Self {
+            frames: true,
+            datagrams: false,
+        }
+    }
+}
+
+/// The source of a sink that numbers subjects as their source does, and so can take one source alone.
+#[derive(Debug, Default)]
+struct OnlySource(Option<SourceId>);
+
+impl OnlySource {
+    fn check(&mut self, source: SourceId) -> Result<()> {
+        let only = *self.0.get_or_insert(source);
+        if only == source {
+            Ok(())
+        } else {
+            Err(Error::SeveralSources)
+        }
     }
 }

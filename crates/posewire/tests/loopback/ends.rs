@@ -108,7 +108,7 @@ fn connections_are_closed_when_the_session_has_ended() {
 fn a_live_source_without_sinks_ends() {
     let calling = format!("mxtp+tcp://{}?mode=connect", deserted());
     for endpoint in ["mxtp://127.0.0.1:0", "mxtp+tcp://127.0.0.1:0", &calling] {
-        let session = Session::start(open(endpoint).unwrap(), Vec::new(), Stop::new());
+        let session = Session::start([open(endpoint).unwrap()], Vec::new(), Stop::new());
         let (done, ended) = mpsc::channel();
         thread::spawn(move || done.send(session.wait()));
         let outcome = ended.recv_timeout(PATIENCE);

@@ -5,7 +5,7 @@ use posewire::sink::{MxtpSink, MxtpSinkOptions, Progress};
 use posewire::source::PlaybackOptions;
 use posewire::stats::{DatagramKind, ServerStatistics, Statistics, StreamStatistics};
 use posewire::stop::Stop;
-use posewire::{Item, Notice, Result, Session, Sink, Source};
+use posewire::{Item, Notice, Result, Session, Sink, Source, SourceId};
 use posewire_motion::{Frame, Subject};
 use posewire_mxtp::MessageType;
 use posewire_mxtp::motion::MessageTypes;
@@ -101,7 +101,7 @@ impl Gatherer {
 }
 
 impl Sink for Gatherer {
-    fn accept(&mut self, item: &Item) -> Result<()> {
+    fn accept(&mut self, _: SourceId, item: &Item) -> Result<()> {
         let mut gathered = self.lock();
         match item {
             Item::Frame { frame, .. } => gathered.frames.push(Arc::clone(frame)),
@@ -131,7 +131,7 @@ impl Receiver {
     /// Runs a source that is open until the stop.
     pub(crate) fn run(source: Source, stop: Stop) -> Self {
         let (endpoint, gatherer) = (source.endpoint().clone(), Gatherer::default());
-        let session = Session::start(source, vec![Box::new(gatherer.clone())], stop.clone());
+        let session = Session::start([source], vec![Box::new(gatherer.clone())], stop.clone());
         Self {
             endpoint,
             gatherer,
@@ -166,7 +166,7 @@ pub(crate) fn play(source: &str, playback: &PlaybackOptions, sink: MxtpSink) -> 
     let source = Source::open(&source.parse().unwrap(), playback).unwrap();
     let progress = sink.progress();
     sink.wait_until_ready(&stop);
-    Session::start(source, vec![Box::new(sink)], stop).wait().unwrap();
+    Session::start([source], vec![Box::new(sink)], stop).wait().unwrap();
     let progress = progress.lock().unwrap().clone();
     assert_eq!(progress.lost(), 0);
     progress

@@ -6,7 +6,7 @@ use posewire::endpoint::{Endpoint, NatNetAddress};
 use posewire::sink::{ClientState, NatNetSink, NatNetSinkOptions, TargetProgress};
 use posewire::source::PlaybackOptions;
 use posewire::stop::Stop;
-use posewire::{Error, Item, Session, Sink, Source};
+use posewire::{Error, Item, Session, Sink, Source, SourceId};
 use posewire_motion::{DQuat, DVec3, Frame, Segment, SegmentKind, Skeleton, Subject};
 use posewire_natnet::client::{Answer, Client, ClientOptions, Event, Mode, ReceivedFrame};
 use posewire_natnet::command::Response;
@@ -150,7 +150,7 @@ fn ada(id: u32) -> Arc<Subject> {
 
 fn send(sink: &mut NatNetSink, frame: Frame) {
     let frame = Arc::new(frame);
-    sink.accept(&Item::Frame { frame, due: None }).unwrap();
+    sink.accept(SourceId(0), &Item::Frame { frame, due: None }).unwrap();
 }
 
 /// What a client makes of a frame.
@@ -303,7 +303,7 @@ fn the_rate_and_the_stamps_of_a_paced_source_are_told() {
 
     let frame = Arc::new(person(&ada, 1));
     let due = Instant::now().checked_sub(Duration::from_millis(3));
-    sink.accept(&Item::Frame { frame, due }).unwrap();
+    sink.accept(SourceId(0), &Item::Frame { frame, due }).unwrap();
     let stamps = peer.next_frame().frame.host_stamps.unwrap();
     assert_eq!(stamps.system_latency(), stamps.software_latency());
     assert!(stamps.system_latency().unwrap() >= 30_000, "3 ms of 100 ns");
@@ -331,7 +331,7 @@ fn a_subject_whose_name_comes_later_is_the_same_one() {
     });
     send(&mut sink, person(&nameless, 1));
     let (mut peer, _) = Peer::connect(place(&sink), Version::new(4, 1));
-    sink.accept(&Item::Subject(ada(0))).unwrap();
+    sink.accept(SourceId(0), &Item::Subject(ada(0))).unwrap();
     (2..5).for_each(|sample| send(&mut sink, person(&ada(0), sample)));
     let model = peer.wait_for(|event| match event {
         Event::Model { model, .. } => Some(Arc::clone(model)),
@@ -374,7 +374,7 @@ fn assert_comes_back(source: &str, people: usize, mode: &str) {
     receiver.gatherer.wait_until(is_there);
     let (progress, sent) = (sink.progress(), Gatherer::default());
     let sinks: Vec<Box<dyn Sink>> = vec![Box::new(sink), Box::new(sent.clone())];
-    Session::start(source, sinks, Stop::new()).wait().unwrap();
+    Session::start([source], sinks, Stop::new()).wait().unwrap();
     let progress = progress.lock().unwrap();
     let gathered = receiver.finish(progress.frames);
     assert_eq!(progress.lost(), 0, "{mode}");

@@ -68,7 +68,7 @@ fn a_peer_that_stalls_loses_whole_samples_and_delays_nobody() {
     let (peer, _) = stalled.accept().unwrap();
     let progress = sink.progress();
     let source = Source::open(&"synthetic:walk?people=8&rate=240".parse().unwrap(), &seconds(2.0)).unwrap();
-    Session::start(source, vec![Box::new(sink)], Stop::new())
+    Session::start([source], vec![Box::new(sink)], Stop::new())
         .wait()
         .unwrap();
     let progress = progress.lock().unwrap().clone();
@@ -101,7 +101,7 @@ fn a_streamer_connects_again_when_the_receiver_comes_back() {
     let sink = MxtpSink::open(std::slice::from_ref(&place), types("02,12,13")).unwrap();
     let (progress, stop) = (sink.progress(), Stop::new());
     let source = Source::open(&WALK.parse().unwrap(), &PlaybackOptions::default()).unwrap();
-    let session = Session::start(source, vec![Box::new(sink)], stop.clone());
+    let session = Session::start([source], vec![Box::new(sink)], stop.clone());
     receiver.finish(20);
 
     let receiver = Receiver::start(&place.to_string());
@@ -144,7 +144,7 @@ fn a_peer_that_came_to_us_may_leave_without_loss() {
     let (progress, stop) = (sink.progress(), Stop::new());
     let ours = progress.lock().unwrap().targets[0].endpoint.clone();
     let source = Source::open(&WALK.parse().unwrap(), &PlaybackOptions::default()).unwrap();
-    let session = Session::start(source, vec![Box::new(sink)], stop.clone());
+    let session = Session::start([source], vec![Box::new(sink)], stop.clone());
     for _ in 0..2 {
         let gathered = Receiver::start(&ours.replace("listen", "connect")).finish(20);
         assert!(gathered.frames.len() >= 20);

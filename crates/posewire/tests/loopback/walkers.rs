@@ -135,7 +135,7 @@ fn a_playback_that_cannot_keep_up_ends_all_the_same() {
     let sink = MxtpSink::open(&[target], types("02")).unwrap();
     let source = Source::open(&"synthetic:walk".parse().unwrap(), &hopeless).unwrap();
     let progress = sink.progress();
-    Session::start(source, vec![Box::new(sink)], Stop::new())
+    Session::start([source], vec![Box::new(sink)], Stop::new())
         .wait()
         .unwrap();
     let sent = progress.lock().unwrap().frames;

@@ -6,7 +6,7 @@ use posewire::endpoint::Endpoint;
 use posewire::queue::Policy;
 use posewire::stats::Statistics;
 use posewire::stop::Stop;
-use posewire::{Item, Notice, Result, Sink};
+use posewire::{Item, Notice, Result, Sink, SourceId};
 use posewire_motion::Frame;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -119,7 +119,7 @@ impl Sink for BoardSink {
         (Policy::Lossless, QUEUED_ITEMS)
     }
 
-    fn accept(&mut self, item: &Item) -> Result<()> {
+    fn accept(&mut self, _: SourceId, item: &Item) -> Result<()> {
         let mut newest = self.0.lock();
         match item {
             Item::Frame { frame, .. } => {
@@ -171,7 +171,8 @@ mod tests {
             last_malformed: Some("found \x1b[2J".to_owned()),
             ..Statistics::default()
         };
-        sink.accept(&Item::Statistics(Arc::new(statistics.clone()))).unwrap();
+        sink.accept(SourceId(0), &Item::Statistics(Arc::new(statistics.clone())))
+            .unwrap();
         assert_eq!(board.heard(), 0);
         let hint = board.hint();
         assert!(
@@ -179,7 +180,8 @@ mod tests {
             "{hint}"
         );
         statistics.datagrams = 7;
-        sink.accept(&Item::Statistics(Arc::new(statistics))).unwrap();
+        sink.accept(SourceId(0), &Item::Statistics(Arc::new(statistics)))
+            .unwrap();
         assert_eq!(board.heard(), 2);
         assert!(board.hint().starts_with("nothing more comes"));
     }

@@ -73,12 +73,12 @@ pub(super) fn show(source: Source, view: View, count: Option<u64>, stop: &Stop) 
         View::Print(format) => {
             say(board.opening());
             sinks.push(Box::new(Printer::new(format, count)));
-            let session = Session::start(source, sinks, stop.clone());
+            let session = Session::start([source], sinks, stop.clone());
             warn_of_silence(&watched, &session, stop);
             finish(session, &watched, view)
         }
         View::Page => {
-            let session = Session::start(source, sinks, stop.clone());
+            let session = Session::start([source], sinks, stop.clone());
             let shown = page::run(&watched, stop);
             stop.stop();
             let end = finish(session, &watched, view)?;

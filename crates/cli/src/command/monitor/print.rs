@@ -5,7 +5,7 @@ use crate::context::say;
 use crate::{json, render};
 use posewire::queue::Policy;
 use posewire::stats::Statistics;
-use posewire::{Error, Item, Result, Sink};
+use posewire::{Error, Item, Result, Sink, SourceId};
 use posewire_motion::Frame;
 use std::io::{BufWriter, Stdout, Write};
 
@@ -69,7 +69,7 @@ impl Sink for Printer {
         (Policy::Lossless, QUEUED_ITEMS)
     }
 
-    fn accept(&mut self, item: &Item) -> Result<()> {
+    fn accept(&mut self, _: SourceId, item: &Item) -> Result<()> {
         match item {
             Item::Frame { frame, .. } => self.frame(frame),
             Item::Subject(subject) if self.format == (Format::Json { frames: true }) => {

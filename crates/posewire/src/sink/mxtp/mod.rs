@@ -4,11 +4,12 @@ mod fitting;
 mod target;
 mod tcp;
 
+use super::OnlySource;
 use super::{Progress, Sink, TargetProgress};
 use crate::endpoint::Endpoint;
 use crate::histogram::DurationHistogram;
 use crate::stop::Stop;
-use crate::{Error, Item, Result};
+use crate::{Error, Item, Result, SourceId};
 use fitting::Fitting;
 use posewire_motion::{Frame, Subject};
 use posewire_mxtp::Revision;
@@ -57,6 +58,7 @@ impl Default for MxtpSinkOptions {
 /// whole samples, which are counted, and delays no other target.
 pub struct MxtpSink {
     options: MxtpSinkOptions,
+    only: OnlySource,
     targets: Vec<Target>,
     characters: BTreeMap<u32, Character>,
     fitting: Option<Fitting>,
@@ -84,6 +86,7 @@ impl MxtpSink {
         let sink = Self {
             fitting: options.fit.then(Fitting::default),
             options,
+            only: OnlySource::default(),
             targets,
             characters: BTreeMap::new(),
             datagrams: Datagrams::default(),
@@ -229,7 +232,8 @@ fn send(targets: &mut [Target], datagrams: &Datagrams) -> Result<()> {
 }
 
 impl Sink for MxtpSink {
-    fn accept(&mut self, item: &Item) -> Result<()> {
+    fn accept(&mut self, source: SourceId, item: &Item) -> Result<()> {
+        self.only.check(source)?;
         match item {
             Item::Subject(subject) => self.describe_fitted(subject),
             Item::Frame { frame, due } => self.send_fitted(frame, *due),

@@ -5,10 +5,11 @@ mod ledger;
 mod ports;
 mod serving;
 
+use super::OnlySource;
 use super::{Progress, Sink};
 use crate::endpoint::NatNetAddress;
 use crate::stop::Stop;
-use crate::{Item, Result};
+use crate::{Item, Result, SourceId};
 use gathering::Share;
 use ports::Ports;
 use posewire_motion::{Frame, Subject};
@@ -65,6 +66,7 @@ impl Default for NatNetSinkOptions {
 /// ```
 pub struct NatNetSink {
     options: NatNetSinkOptions,
+    only: OnlySource,
     shared: Arc<Shared>,
     answering: Option<JoinHandle<()>>,
     /// The subjects under the name that the options give, as the source has them and as they are sent.
@@ -100,6 +102,7 @@ impl NatNetSink {
         let serving = Arc::clone(&shared);
         Ok(Self {
             options,
+            only: OnlySource::default(),
             shared,
             answering: Some(thread::spawn(move || answer(&serving))),
             renamed: Vec::new(),
@@ -166,7 +169,8 @@ impl NatNetSink {
 }
 
 impl Sink for NatNetSink {
-    fn accept(&mut self, item: &Item) -> Result<()> {
+    fn accept(&mut self, source: SourceId, item: &Item) -> Result<()> {
+        self.only.check(source)?;
         match item {
             Item::Subject(subject) => self.describe(subject),
             Item::Frame { frame, due } => {

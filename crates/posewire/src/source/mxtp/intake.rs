@@ -4,10 +4,19 @@ use crate::clock::Clock;
 use crate::session::Outlet;
 use crate::source::report::Reports;
 use crate::stats::{Edge, Tally};
-use crate::{Item, Notice};
+use crate::{Datagram, Item, Notice, Wire};
 use posewire_motion::Stamp;
 use posewire_mxtp::{Assembler, Event};
+use std::net::SocketAddr;
 use std::sync::Arc;
+
+/// Which way a datagram has come.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Way {
+    pub(super) wire: Wire,
+    pub(super) from: SocketAddr,
+    pub(super) to: SocketAddr,
+}
 
 /// Assembles what arrives, counts it, and hands it on.
 pub(super) struct Intake<'a> {
@@ -31,7 +40,14 @@ impl<'a> Intake<'a> {
     }
 
     /// Takes one datagram as it arrived.
-    pub(super) fn datagram(&mut self, at: Stamp, bytes: &[u8]) {
+    pub(super) fn datagram(&mut self, way: Way, at: Stamp, bytes: &[u8]) {
+        self.outlet.push_datagram(|| Datagram {
+            wire: way.wire,
+            from: way.from,
+            to: way.to,
+            received: at,
+            bytes: bytes.into(),
+        });
         self.tally.datagram(bytes.len());
         self.assembler.handle(at, bytes);
         self.forward(at);

@@ -3,14 +3,14 @@
 mod peers;
 
 use self::peers::{accept_peers, call_peer};
-use super::intake::Intake;
+use super::intake::{self, Intake};
 use crate::endpoint::{Endpoint, TcpAddress, TcpMode};
 use crate::net::{self, TcpIncoming};
 use crate::queue::{Consumer, Policy, Producer, bounded};
 use crate::session::Outlet;
 use crate::source::report::TICK;
 use crate::stop::Stop;
-use crate::{Error, Notice, Result};
+use crate::{Error, Notice, Result, Wire};
 use posewire_motion::Stamp;
 use posewire_mxtp::Framer;
 use std::collections::BTreeMap;
@@ -82,7 +82,8 @@ fn start_connecting(way: Way, news: Producer<News>, ending: Stop) -> JoinHandle<
 enum News {
     Connected {
         connection: usize,
-        peer: String,
+        peer: SocketAddr,
+        local: SocketAddr,
     },
     Bytes {
         connection: usize,
@@ -92,7 +93,6 @@ enum News {
     Ended {
         connection: usize,
         at: Stamp,
-        peer: String,
         reason: String,
     },
     /// No connection came about, and it will be tried again.
@@ -101,17 +101,23 @@ enum News {
 
 /// The streams of all connections, being cut into datagrams.
 struct Streams<'a> {
-    framers: BTreeMap<usize, Framer>,
+    open: BTreeMap<usize, Stream>,
     /// Bytes skipped on connections that have ended.
     skipped_before: u64,
     batch: Vec<News>,
     intake: Intake<'a>,
 }
 
+/// The stream of one connection.
+struct Stream {
+    way: intake::Way,
+    framer: Framer,
+}
+
 impl<'a> Streams<'a> {
     fn new(intake: Intake<'a>) -> Self {
         Self {
-            framers: BTreeMap::new(),
+            open: BTreeMap::new(),
             skipped_before: 0,
             batch: Vec::new(),
             intake,
@@ -138,33 +144,48 @@ impl<'a> Streams<'a> {
 
     fn heed(&mut self, news: News) {
         match news {
-            News::Connected { connection, peer } => {
-                self.framers.insert(connection, Framer::new());
-                self.intake.notice(Notice::Connected { peer });
-            }
-            News::Bytes { connection, at, bytes } => {
-                let framer = self.framers.entry(connection).or_default();
-                framer.push(&bytes);
-                take_datagrams(framer, at, &mut self.intake);
-            }
-            News::Ended {
+            News::Connected {
                 connection,
-                at,
                 peer,
-                reason,
-            } => {
-                let mut framer = self.framers.remove(&connection).unwrap_or_default();
-                framer.finish();
-                take_datagrams(&mut framer, at, &mut self.intake);
-                self.skipped_before += framer.skipped();
-                self.intake.notice(Notice::Disconnected { peer, reason });
+                local,
+            } => self.begin(connection, peer, local),
+            News::Bytes { connection, at, bytes } => {
+                if let Some(stream) = self.open.get_mut(&connection) {
+                    stream.framer.push(&bytes);
+                    stream.take_datagrams(at, &mut self.intake);
+                }
+            }
+            News::Ended { connection, at, reason } => {
+                if let Some(stream) = self.open.remove(&connection) {
+                    self.end(stream, at, reason);
+                }
             }
             News::NotConnected(error) => self.intake.notice(Notice::NotConnected { error }),
         }
     }
 
+    fn begin(&mut self, connection: usize, peer: SocketAddr, local: SocketAddr) {
+        let way = intake::Way {
+            wire: Wire::MxtpTcp,
+            from: peer,
+            to: local,
+        };
+        let framer = Framer::new();
+        self.open.insert(connection, Stream { way, framer });
+        self.intake.notice(Notice::Connected { peer: peer.to_string() });
+    }
+
+    fn end(&mut self, mut stream: Stream, at: Stamp, reason: String) {
+        stream.framer.finish();
+        stream.take_datagrams(at, &mut self.intake);
+        self.skipped_before += stream.framer.skipped();
+        let peer = stream.way.from.to_string();
+        self.intake.notice(Notice::Disconnected { peer, reason });
+    }
+
     fn skipped(&self) -> u64 {
-        self.skipped_before + self.framers.values().map(Framer::skipped).sum::<u64>()
+        let open = self.open.values().map(|stream| stream.framer.skipped());
+        self.skipped_before + open.sum::<u64>()
     }
 
     fn finish(self) {
@@ -173,9 +194,11 @@ impl<'a> Streams<'a> {
     }
 }
 
-fn take_datagrams(framer: &mut Framer, at: Stamp, intake: &mut Intake<'_>) {
-    while let Some(datagram) = framer.next_datagram() {
-        intake.datagram(at, datagram);
+impl Stream {
+    fn take_datagrams(&mut self, at: Stamp, intake: &mut Intake<'_>) {
+        while let Some(datagram) = self.framer.next_datagram() {
+            intake.datagram(self.way, at, datagram);
+        }
     }
 }
 

@@ -1,12 +1,12 @@
 //! MXTP over UDP.
 
-use super::intake::Intake;
-use crate::Result;
+use super::intake::{Intake, Way};
 use crate::endpoint::{Endpoint, UdpAddress};
 use crate::net::UdpReceiver;
 use crate::session::Outlet;
 use crate::source::report::{DRAIN_LIMIT, TICK};
 use crate::stop::Stop;
+use crate::{Result, Wire};
 use std::time::{Duration, Instant};
 
 /// A bound socket that MXTP datagrams arrive on.
@@ -58,7 +58,14 @@ impl MxtpUdp {
     }
 
     fn receive(&mut self, intake: &mut Intake<'_>, timeout: Duration) -> Result<usize> {
-        self.receiver
-            .receive(timeout, |received| intake.datagram(received.stamp, received.bytes))
+        let to = self.receiver.local_address();
+        self.receiver.receive(timeout, |received| {
+            let way = Way {
+                wire: Wire::MxtpUdp,
+                from: received.from,
+                to,
+            };
+            intake.datagram(way, received.stamp, received.bytes);
+        })
     }
 }

@@ -15,14 +15,14 @@ use super::advice;
 use super::naming::{Arrived, Naming};
 use super::senders::Senders;
 use super::silence::{REMARK_AFTER, Silence};
-use super::sockets::Sockets;
+use super::sockets::{Port, Sockets};
 use crate::clock::Clock;
 use crate::endpoint::NatNetAddress;
 use crate::net::Received;
 use crate::session::Outlet;
 use crate::source::report::Reports;
 use crate::stats::{Link, NatNetTally};
-use crate::{Error, Item, Notice};
+use crate::{Datagram, Error, Item, Notice};
 
 /// Drives the client, counts what it tells, and hands it on.
 pub(super) struct Intake<'a> {
@@ -86,7 +86,14 @@ impl<'a> Intake<'a> {
     }
 
     /// Takes one datagram as it arrived; whether it was a frame.
-    pub(super) fn datagram(&mut self, received: Received<'_>) -> bool {
+    pub(super) fn datagram(&mut self, port: Port, received: Received<'_>) -> bool {
+        self.outlet.push_datagram(|| Datagram {
+            wire: port.wire,
+            from: received.from,
+            to: port.local,
+            received: received.stamp,
+            bytes: received.bytes.into(),
+        });
         let is_frame = received.bytes.first_chunk() == Some(&MessageId::FRAME.0.to_le_bytes());
         let from = self.senders.known_as(received.from);
         self.tally.datagram(received.bytes.len());

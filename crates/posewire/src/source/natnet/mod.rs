@@ -120,7 +120,9 @@ impl Running<'_> {
 
     fn receive(&mut self, timeout: Duration) -> Result<usize> {
         let intake = &mut self.intake;
-        let count = self.sockets.receive(timeout, |received| intake.datagram(received))?;
+        let count = self
+            .sockets
+            .receive(timeout, |port, received| intake.datagram(port, received))?;
         self.send();
         Ok(count)
     }

@@ -7,7 +7,7 @@ use posewire_natnet::client::Mode;
 
 use crate::endpoint::{Host, Interface, NatNetAddress, UdpAddress};
 use crate::net::{LocalAddress, Received, UdpReceiver};
-use crate::{Error, Result};
+use crate::{Error, Result, Wire};
 
 /// The command socket, and the one that frames arrive on where that is another.
 ///
@@ -24,6 +24,20 @@ pub(super) struct Sockets {
     group: Option<SocketAddr>,
     /// Drops of a socket that was closed.
     dropped_before: u64,
+}
+
+/// Which of the sockets a datagram arrived at.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Port {
+    pub(super) wire: Wire,
+    pub(super) local: SocketAddr,
+}
+
+impl Port {
+    fn of(socket: &UdpReceiver, wire: Wire) -> Self {
+        let local = socket.local_address();
+        Self { wire, local }
+    }
 }
 
 impl Sockets {
@@ -71,13 +85,21 @@ impl Sockets {
 
     /// Waits at most `timeout` for a datagram that may be a frame, and takes all that is there. `each` says whether one was
     /// a frame. Gives how many there were.
-    pub(super) fn receive(&mut self, timeout: Duration, mut each: impl FnMut(Received<'_>) -> bool) -> Result<usize> {
+    pub(super) fn receive(
+        &mut self,
+        timeout: Duration,
+        mut each: impl FnMut(Port, Received<'_>) -> bool,
+    ) -> Result<usize> {
         let [command, data] = timeouts(timeout, self.waits_for_data);
         let mut frames = [false; 2];
         // What was sent first is likely to be needed first: the command socket tells which version frames are.
-        let mut count = self.command.receive(command, |received| frames[0] |= each(received))?;
+        let port = Port::of(&self.command, Wire::NatNetCommand);
+        let mut count = self
+            .command
+            .receive(command, |received| frames[0] |= each(port, received))?;
         if let Some(socket) = &mut self.data {
-            count += socket.receive(data, |received| frames[1] |= each(received))?;
+            let port = Port::of(socket, Wire::NatNetData);
+            count += socket.receive(data, |received| frames[1] |= each(port, received))?;
         }
         match (self.mode, frames) {
             // Frames come here after all; from both, each would come twice.

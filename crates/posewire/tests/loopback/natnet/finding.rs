@@ -62,7 +62,7 @@ fn two_servers_are_named_so_that_one_can_be_chosen() {
     let servers = servers.map(|(name, at)| (name, UdpSocket::bind(at).unwrap()));
     let [first, second] = [&servers[0], &servers[1]].map(|(_, socket)| socket.local_addr().unwrap());
     let sink = Box::new(Gatherer::default());
-    let session = Session::start(open(&url).unwrap(), vec![sink], Stop::new());
+    let session = Session::start([open(&url).unwrap()], vec![sink], Stop::new());
     answer_as(&asked, &servers);
     let (done, ended) = mpsc::channel();
     thread::spawn(move || done.send(session.wait()));

@@ -185,7 +185,7 @@ mod tests {
     use super::super::view::State;
     use super::*;
     use posewire::stop::Stop;
-    use posewire::{Item, Sink};
+    use posewire::{Item, Sink, SourceId};
 
     fn board() -> Board {
         Board::new(&"mxtp://127.0.0.1:9763".parse().unwrap(), None, Stop::new())
@@ -214,11 +214,11 @@ mod tests {
             view.characters.first().map(Character::state)
         };
         assert_eq!(state_after(0), None);
-        sink.accept(&sample(3)).unwrap();
+        sink.accept(SourceId(0), &sample(3)).unwrap();
         assert_eq!(state_after(10), Some(State::Live));
         assert_eq!(state_after(300), Some(State::Stale));
         assert_eq!(state_after(2_100), Some(State::Lost));
-        sink.accept(&sample(3)).unwrap();
+        sink.accept(SourceId(0), &sample(3)).unwrap();
         assert_eq!(state_after(2_200), Some(State::Live));
     }
 
@@ -227,7 +227,7 @@ mod tests {
         let (board, start) = (board(), Instant::now());
         let (mut sink, mut watch) = (board.sink(), Watch::new(start));
         let mut speed = |item: &Item| {
-            sink.accept(item).unwrap();
+            sink.accept(SourceId(0), item).unwrap();
             watch.look(&board, start).bytes_per_second
         };
         assert!((speed(&statistics(1, 10, 1_000)) - 1_000.0).abs() < 1e-9);

@@ -116,10 +116,10 @@ impl<'a> Trouble<'a> {
 
 /// Hands over what a peer sends until it ends the stream, the queue closes or the end.
 fn read_from(mut from: TcpConnection, connection: usize, news: &Producer<News>, ending: &Stop) {
-    let peer = from.peer().to_string();
     let connected = News::Connected {
         connection,
-        peer: peer.clone(),
+        peer: from.peer(),
+        local: from.local_address(),
     };
     if news.push(connected).is_err() {
         return;
@@ -129,7 +129,6 @@ fn read_from(mut from: TcpConnection, connection: usize, news: &Producer<News>, 
         let _ = news.push(News::Ended {
             connection,
             at: clock::now(),
-            peer,
             reason,
         });
     }

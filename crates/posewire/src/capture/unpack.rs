@@ -1,0 +1,135 @@
+//! From captured packets to datagrams.
+
+use super::fragments::Fragments;
+use super::link::{self, Content, NoContent};
+use super::packet::Head;
+use super::protocol::{Detector, Protocol};
+use super::streams::{Flow, Segment, Streams};
+use super::Counts;
+use crate::{Datagram, Wire};
+use etherparse::{TcpSlice, UdpSlice};
+use posewire_motion::Stamp;
+use std::collections::VecDeque;
+use std::net::SocketAddr;
+
+/// Takes packets, gives datagrams.
+#[derive(Debug)]
+pub(super) struct Unpacker {
+    fragments: Fragments,
+    streams: Streams,
+    detector: Detector,
+    ready: VecDeque<Datagram>,
+    counts: Counts,
+}
+
+impl Unpacker {
+    pub(super) fn new(forced: Option<Protocol>) -> Self {
+        Self {
+            fragments: Fragments::default(),
+            streams: Streams::default(),
+            detector: Detector::new(forced),
+            ready: VecDeque::new(),
+            counts: Counts::default(),
+        }
+    }
+
+    /// Takes a packet; what it completes is then [ready](Self::pop).
+    pub(super) fn take(&mut self, head: Head, packet: &[u8]) {
+        self.counts.packets += 1;
+        match link::content(head.link, packet) {
+            Ok(content) => self.take_content(head, &content),
+            Err(NoContent::Link) => self.counts.unknown_link += 1,
+            Err(NoContent::NotIp) => self.counts.other += 1,
+            Err(NoContent::Malformed) => self.counts.malformed += 1,
+        }
+    }
+
+    /// The end of the capture: what is still held becomes ready.
+    pub(super) fn finish(&mut self) {
+        let Self { streams, ready, .. } = self;
+        streams.finish(&mut |flow, at, bytes| ready.push_back(of_stream(flow, at, bytes)));
+    }
+
+    pub(super) fn pop(&mut self) -> Option<Datagram> {
+        self.ready.pop_front()
+    }
+
+    pub(super) fn counts(&self) -> Counts {
+        let streams = self.streams.counts();
+        Counts {
+            incomplete: self.fragments.given_up() + self.fragments.waiting(),
+            gaps: streams.gaps,
+            skipped_bytes: streams.skipped,
+            ..self.counts
+        }
+    }
+
+    fn take_content(&mut self, head: Head, content: &Content<'_>) {
+        if head.is_cut || content.is_cut {
+            self.counts.cut += 1;
+            return;
+        }
+        let Some(fragment) = content.fragment else {
+            return self.take_whole(head.time, content);
+        };
+        if let Some(bytes) = self.fragments.take(head.time, fragment, content.bytes) {
+            let bytes = &bytes;
+            self.take_whole(head.time, &Content { bytes, ..*content });
+        }
+    }
+
+    fn take_whole(&mut self, at: Stamp, content: &Content<'_>) {
+        match content.protocol {
+            link::UDP => self.take_udp(at, content),
+            link::TCP => self.take_tcp(at, content),
+            _ => self.counts.other += 1,
+        }
+    }
+
+    fn take_udp(&mut self, at: Stamp, content: &Content<'_>) {
+        let Ok(udp) = UdpSlice::from_slice(content.bytes) else {
+            self.counts.malformed += 1;
+            return;
+        };
+        let from = SocketAddr::new(content.from, udp.source_port());
+        let to = SocketAddr::new(content.to, udp.destination_port());
+        match self.detector.wire(from, to, udp.payload()) {
+            Some(wire) => self.ready.push_back(Datagram {
+                wire,
+                from,
+                to,
+                received: at,
+                bytes: udp.payload().into(),
+            }),
+            None => self.counts.other += 1,
+        }
+    }
+
+    fn take_tcp(&mut self, at: Stamp, content: &Content<'_>) {
+        let Ok(tcp) = TcpSlice::from_slice(content.bytes) else {
+            self.counts.malformed += 1;
+            return;
+        };
+        let from = SocketAddr::new(content.from, tcp.source_port());
+        let to = SocketAddr::new(content.to, tcp.destination_port());
+        let segment = Segment {
+            flow: (from, to),
+            sequence: tcp.sequence_number(),
+            begins: tcp.syn(),
+            ends: tcp.fin() || tcp.rst(),
+            bytes: tcp.payload(),
+        };
+        let Self { streams, ready, .. } = self;
+        streams.take(at, segment, &mut |flow, at, bytes| ready.push_back(of_stream(flow, at, bytes)));
+    }
+}
+
+fn of_stream((from, to): Flow, received: Stamp, bytes: &[u8]) -> Datagram {
+    Datagram {
+        wire: Wire::MxtpTcp,
+        from,
+        to,
+        received,
+        bytes: bytes.into(),
+    }
+}
