@@ -7,7 +7,7 @@
 //!     &data-port=1511&group=239.255.42.99&interface=NAME-or-ADDR
 //!     &up=y|z&skeleton=global|local&copy=false]
 //! synthetic:walk[?people=1&rate=240&props=0&fingers=false]         the built-in walker
-//! PATH                                                             .mvnx, .mvnx.gz
+//! PATH                                                             .mvnx, .mvnx.gz, .mcap, .pcap, .pcapng
 //! ```
 //!
 //! Parsing touches neither the network nor the disk: host names are looked up when a socket is
@@ -257,10 +257,10 @@ mod tests {
                 "take.mvn",
                 "take.mvn: the .mvn format is proprietary: export MVNX from MVN",
             ),
-            ("take.mcap", "take.mcap: MCAP is not supported yet"),
+            ("take.bvh", "take.bvh: BVH is not supported yet"),
             (
                 "take.txt",
-                "take.txt: expected a file that ends in .mvnx or .mvnx.gz, or a URL",
+                "take.txt: expected a file that ends in .mvnx, .mvnx.gz, .mcap, .pcap or .pcapng, or a URL",
             ),
         ] {
             let error = parse(given).unwrap_err();

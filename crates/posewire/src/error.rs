@@ -136,6 +136,28 @@ pub enum Error {
         /// What is wrong with it, and where.
         error: posewire_mvnx::Error,
     },
+    /// A file that is no capture of datagrams.
+    #[error("{path}: expected a pcap, pcapng or MCAP file, found \"{}\"", found.escape_ascii())]
+    NotACapture {
+        /// The file.
+        path: PathBuf,
+        /// Its first bytes.
+        found: Vec<u8>,
+    },
+    /// A capture without a single datagram that posewire speaks.
+    #[error("{path}: expected MXTP or NatNet, found {found}")]
+    NoDatagrams {
+        /// The file.
+        path: PathBuf,
+        /// What there is instead.
+        found: String,
+    },
+    /// A datagram that no IP packet has room for.
+    #[error("expected at most 65507 bytes in a datagram, found {found}")]
+    TooLongForIp {
+        /// How many bytes it has.
+        found: usize,
+    },
     /// A take without a single frame.
     #[error("{path}: expected frames, found none")]
     NoFrames {
@@ -224,6 +246,9 @@ impl Error {
             Self::Stalled { peer, .. } => Some(format!("check that the program at {peer} reads its connection")),
             Self::Read { kind, .. } => read_help(*kind),
             Self::Take { error, .. } => Some(take_help(error).into()),
+            Self::NotACapture { .. } => Some("record one: posewire record mxtp://0.0.0.0:9763 -o take.mcap".into()),
+            Self::NoDatagrams { .. } => Some("posewire explain FILE --protocol mxtp takes every datagram for MXTP".into()),
+            Self::TooLongForIp { .. } => None,
             Self::NoFrames { .. } => Some("posewire inspect says what it holds; export it again from MVN".into()),
             Self::Rate { .. } => Some("leave --rate out to send every sample".into()),
             Self::NotATarget { .. } => Some("give a network address, as in --to mxtp://127.0.0.1:9763".into()),

@@ -30,6 +30,7 @@
 //! # Ok::<(), posewire::Error>(())
 //! ```
 
+pub mod capture;
 pub mod clock;
 mod datagram;
 pub mod endpoint;

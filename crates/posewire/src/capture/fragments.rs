@@ -99,7 +99,9 @@ impl Waiting {
     /// Adds a piece; `false` when it cannot be of this packet.
     fn add(&mut self, fragment: Fragment, piece: &[u8]) -> bool {
         let end = fragment.at.saturating_add(piece.len());
-        let ends_elsewhere = self.length.is_some_and(|length| end > length || fragment.is_last && end != length);
+        let ends_elsewhere = self
+            .length
+            .is_some_and(|length| end > length || fragment.is_last && end != length);
         if end > MAX_LENGTH || ends_elsewhere || fragment.is_last && self.bytes.len() > end {
             return false;
         }

@@ -3,6 +3,7 @@
 use super::input::Input;
 use super::pcap::Pcap;
 use super::pcapng::PcapNg;
+use crate::Wire;
 use posewire_motion::Stamp;
 use std::io;
 
@@ -25,6 +26,8 @@ pub(super) struct Head {
     pub(super) link: u32,
     /// Whether it was longer on the wire.
     pub(super) is_cut: bool,
+    /// What it is, in a file that we wrote.
+    pub(super) wire: Option<Wire>,
 }
 
 /// What comes next in a file.

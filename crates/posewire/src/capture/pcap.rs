@@ -58,6 +58,7 @@ impl Pcap {
             time: Stamp::from_parts(number(0).into(), fraction),
             link: self.link,
             is_cut: length < on_wire,
+            wire: None,
         }))
     }
 }

@@ -2,6 +2,7 @@
 
 use super::input::{Filled, Input, Order};
 use super::packet::{Head, MAX_PACKET, Next};
+use crate::Wire;
 use posewire_motion::Stamp;
 use std::io;
 
@@ -25,6 +26,8 @@ struct Interface {
     snap_length: u32,
     resolution: u8,
     offset_seconds: i64,
+    /// What our own files name it after.
+    wire: Option<Wire>,
 }
 
 /// What is known of a packet besides its bytes.
@@ -104,7 +107,7 @@ impl PcapNg {
             return Ok(Err(ENDS));
         };
         let length = self.order.u32(&length, 0).unwrap_or_default();
-        let Some(content) = length.checked_sub(12).filter(|_| length % 4 == 0) else {
+        let Some(content) = length.checked_sub(12).filter(|_| length.is_multiple_of(4)) else {
             return Ok(Err(LENGTH));
         };
         let is_used = [INTERFACE, ENHANCED_PACKET, SIMPLE_PACKET, OLD_PACKET].contains(&kind);
@@ -135,11 +138,13 @@ impl PcapNg {
             snap_length: self.order.u32(&self.block, 4).unwrap_or_default(),
             resolution: MICROSECONDS,
             offset_seconds: 0,
+            wire: None,
         };
         let mut at = 8;
         while let Some((code, value)) = self.option(&mut at) {
             match (code, value) {
                 (OPTION_RESOLUTION, [resolution, ..]) => interface.resolution = *resolution,
+                (OPTION_NAME, name) => interface.wire = wire_of(name),
                 (OPTION_OFFSET, value) => interface.offset_seconds = self.order.i64(value, 0).unwrap_or_default(),
                 _ => {}
             }
@@ -180,6 +185,7 @@ impl PcapNg {
             time: self.latest,
             link: interface.link,
             is_cut: place.length < place.on_wire,
+            wire: interface.wire,
         })
     }
 
@@ -198,7 +204,11 @@ impl PcapNg {
     fn simple(&self) -> Option<Place> {
         let on_wire = self.order.u32(&self.block, 0)? as usize;
         let snap_length = self.interfaces.first().map_or(0, |interface| interface.snap_length);
-        let limit = if snap_length == 0 { on_wire } else { snap_length as usize };
+        let limit = if snap_length == 0 {
+            on_wire
+        } else {
+            snap_length as usize
+        };
         Some(Place {
             interface: 0,
             ticks: None,
@@ -236,12 +246,23 @@ impl Interface {
     }
 }
 
+/// What the interface is named in our own files that packets of a wire are of.
+pub(super) fn interface_name(wire: Wire) -> String {
+    format!("{NAMED}{wire}")
+}
+
+fn wire_of(name: &[u8]) -> Option<Wire> {
+    Wire::named(std::str::from_utf8(name).ok()?.strip_prefix(NAMED)?)
+}
+
+const NAMED: &str = "posewire ";
 /// Reads the same in either order of bytes.
 pub(super) const SECTION: u32 = 0x0a0d_0d0a;
 pub(super) const INTERFACE: u32 = 1;
 pub(super) const ENHANCED_PACKET: u32 = 6;
 const OLD_PACKET: u32 = 2;
 const SIMPLE_PACKET: u32 = 3;
+pub(super) const OPTION_NAME: u16 = 2;
 pub(super) const OPTION_RESOLUTION: u16 = 9;
 const OPTION_OFFSET: u16 = 14;
 /// What ticks are where an interface does not say.

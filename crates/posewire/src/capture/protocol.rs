@@ -36,17 +36,24 @@ impl Detector {
 
     /// What a UDP datagram is; `None` when it is nothing that we speak.
     pub(super) fn wire(&mut self, from: SocketAddr, to: SocketAddr, bytes: &[u8]) -> Option<Wire> {
-        match self.forced {
-            Some(Protocol::Mxtp) => Some(Wire::MxtpUdp),
-            Some(Protocol::NatNet) => Some(natnet_wire(to)),
-            None if is_mxtp(bytes) => Some(Wire::MxtpUdp),
-            None if self.is_natnet(from, to, bytes) => Some(natnet_wire(to)),
-            None => None,
+        match self.forced.or_else(|| self.detect(from, to, bytes))? {
+            Protocol::Mxtp => Some(Wire::MxtpUdp),
+            Protocol::NatNet => Some(natnet_wire(to)),
         }
     }
 
+    fn detect(&mut self, from: SocketAddr, to: SocketAddr, bytes: &[u8]) -> Option<Protocol> {
+        if is_mxtp(bytes) {
+            return Some(Protocol::Mxtp);
+        }
+        self.is_natnet(from, to, bytes).then_some(Protocol::NatNet)
+    }
+
     fn is_natnet(&mut self, from: SocketAddr, to: SocketAddr, bytes: &[u8]) -> bool {
-        let Some(packet) = Packet::decode(bytes).ok().filter(|packet| packet.quirks == Quirks::NONE) else {
+        let Some(packet) = Packet::decode(bytes)
+            .ok()
+            .filter(|packet| packet.quirks == Quirks::NONE)
+        else {
             return false;
         };
         let is_known = packet.id.name() != "unknown";

@@ -24,7 +24,7 @@ pub(super) struct Segment<'a> {
 /// have come; then the stream goes on behind the gap, where the framer finds the next datagram.
 #[derive(Debug, Default)]
 pub(super) struct Streams {
-    streams: BTreeMap<Flow, Stream>,
+    open: BTreeMap<Flow, Stream>,
     /// Counts of streams that have ended.
     past: StreamCounts,
     ordinal: u64,
@@ -37,8 +37,6 @@ pub(super) struct StreamCounts {
     pub(super) gaps: u64,
     /// Bytes of MXTP streams that are part of no datagram.
     pub(super) skipped: u64,
-    /// Streams without an MXTP datagram.
-    pub(super) foreign: u64,
 }
 
 #[derive(Debug)]
@@ -57,6 +55,62 @@ struct Stream {
     datagrams: u64,
 }
 
+impl Streams {
+    /// Takes a segment that was captured at `now`, and gives each datagram that it completes to `each`.
+    pub(super) fn take(&mut self, now: Stamp, segment: Segment<'_>, each: &mut impl FnMut(Flow, Stamp, &[u8])) {
+        self.ordinal += 1;
+        let first = segment.sequence.wrapping_add(segment.begins.into());
+        let known = self.open.get(&segment.flow);
+        if known.is_none() && !segment.begins && segment.bytes.is_empty() {
+            return;
+        }
+        // A connection may follow another between the same ports.
+        if known.is_none_or(|stream| segment.begins && stream.first != first) {
+            self.end(segment.flow, each);
+            self.end_the_oldest(each);
+            self.open.insert(segment.flow, Stream::new(first));
+        }
+        let Some(stream) = self.open.get_mut(&segment.flow) else {
+            return;
+        };
+        (stream.used, stream.latest) = (self.ordinal, now);
+        let mut each_of_flow = |at: Stamp, bytes: &[u8]| each(segment.flow, at, bytes);
+        stream.take(first, segment.bytes, &mut each_of_flow);
+        if segment.ends && stream.position(first) + segment.bytes.len() as u64 == stream.next {
+            // The stream is kept to know its bytes should they be sent again.
+            stream.cut(&mut each_of_flow);
+        }
+    }
+
+    /// The end of the capture: what the streams still hold.
+    pub(super) fn finish(&mut self, each: &mut impl FnMut(Flow, Stamp, &[u8])) {
+        for flow in self.open.keys().copied().collect::<Vec<_>>() {
+            self.end(flow, each);
+        }
+    }
+
+    pub(super) fn counts(&self) -> StreamCounts {
+        let open = self.open.values().map(Stream::counts);
+        open.fold(self.past, StreamCounts::and)
+    }
+
+    fn end(&mut self, flow: Flow, each: &mut impl FnMut(Flow, Stamp, &[u8])) {
+        if let Some(mut stream) = self.open.remove(&flow) {
+            stream.finish(&mut |at, bytes| each(flow, at, bytes));
+            self.past = self.past.and(stream.counts());
+        }
+    }
+
+    fn end_the_oldest(&mut self, each: &mut impl FnMut(Flow, Stamp, &[u8])) {
+        if self.open.len() >= MAX_STREAMS {
+            let oldest = self.open.iter().min_by_key(|(_, stream)| stream.used);
+            if let Some(flow) = oldest.map(|(flow, _)| *flow) {
+                self.end(flow, each);
+            }
+        }
+    }
+}
+
 impl Stream {
     fn new(first: u32) -> Self {
         Self {
@@ -73,9 +127,12 @@ impl Stream {
     }
 
     fn counts(&self) -> StreamCounts {
-        let skipped = self.counts.skipped + self.framer.skipped();
+        // A stream of another protocol has neither gaps nor bytes that we miss.
+        if self.datagrams == 0 {
+            return StreamCounts::default();
+        }
         StreamCounts {
-            skipped: if self.datagrams == 0 { 0 } else { skipped },
+            skipped: self.counts.skipped + self.framer.skipped(),
             ..self.counts
         }
     }
@@ -164,7 +221,6 @@ impl StreamCounts {
         Self {
             gaps: self.gaps + other.gaps,
             skipped: self.skipped + other.skipped,
-            foreign: self.foreign + other.foreign,
         }
     }
 }

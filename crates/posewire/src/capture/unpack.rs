@@ -1,11 +1,11 @@
 //! From captured packets to datagrams.
 
+use super::Counts;
 use super::fragments::Fragments;
 use super::link::{self, Content, NoContent};
 use super::packet::Head;
 use super::protocol::{Detector, Protocol};
 use super::streams::{Flow, Segment, Streams};
-use super::Counts;
 use crate::{Datagram, Wire};
 use etherparse::{TcpSlice, UdpSlice};
 use posewire_motion::Stamp;
@@ -70,35 +70,36 @@ impl Unpacker {
             return;
         }
         let Some(fragment) = content.fragment else {
-            return self.take_whole(head.time, content);
+            return self.take_whole(head, content);
         };
         if let Some(bytes) = self.fragments.take(head.time, fragment, content.bytes) {
             let bytes = &bytes;
-            self.take_whole(head.time, &Content { bytes, ..*content });
+            self.take_whole(head, &Content { bytes, ..*content });
         }
     }
 
-    fn take_whole(&mut self, at: Stamp, content: &Content<'_>) {
+    fn take_whole(&mut self, head: Head, content: &Content<'_>) {
         match content.protocol {
-            link::UDP => self.take_udp(at, content),
-            link::TCP => self.take_tcp(at, content),
+            link::UDP => self.take_udp(head, content),
+            link::TCP => self.take_tcp(head.time, content),
             _ => self.counts.other += 1,
         }
     }
 
-    fn take_udp(&mut self, at: Stamp, content: &Content<'_>) {
+    fn take_udp(&mut self, head: Head, content: &Content<'_>) {
         let Ok(udp) = UdpSlice::from_slice(content.bytes) else {
             self.counts.malformed += 1;
             return;
         };
         let from = SocketAddr::new(content.from, udp.source_port());
         let to = SocketAddr::new(content.to, udp.destination_port());
-        match self.detector.wire(from, to, udp.payload()) {
+        let detected = || self.detector.wire(from, to, udp.payload());
+        match head.wire.or_else(detected) {
             Some(wire) => self.ready.push_back(Datagram {
                 wire,
                 from,
                 to,
-                received: at,
+                received: head.time,
                 bytes: udp.payload().into(),
             }),
             None => self.counts.other += 1,
@@ -120,7 +121,9 @@ impl Unpacker {
             bytes: tcp.payload(),
         };
         let Self { streams, ready, .. } = self;
-        streams.take(at, segment, &mut |flow, at, bytes| ready.push_back(of_stream(flow, at, bytes)));
+        streams.take(at, segment, &mut |flow, at, bytes| {
+            ready.push_back(of_stream(flow, at, bytes));
+        });
     }
 }
 

@@ -12,9 +12,20 @@ pub enum FileFormat {
     Mvnx,
     /// The same, compressed: `.mvnx.gz`.
     MvnxGz,
+    /// A recording of datagrams and poses, `.mcap`.
+    Mcap,
+    /// Captured packets as libpcap writes them, `.pcap`.
+    Pcap,
+    /// Captured packets as Wireshark writes them, `.pcapng`.
+    PcapNg,
 }
 
 impl FileFormat {
+    /// Whether the file holds datagrams as they were captured.
+    pub const fn is_capture(self) -> bool {
+        matches!(self, Self::Mcap | Self::Pcap | Self::PcapNg)
+    }
+
     /// The format that the ending of `path` names, in either case.
     pub(super) fn of(path: &str) -> Result<Self> {
         let name = path.to_ascii_lowercase();
@@ -22,6 +33,9 @@ impl FileFormat {
         match last {
             "mvnx" => Ok(Self::Mvnx),
             "gz" if Path::new(stem).extension() == Some("mvnx".as_ref()) => Ok(Self::MvnxGz),
+            "mcap" => Ok(Self::Mcap),
+            "pcap" => Ok(Self::Pcap),
+            "pcapng" => Ok(Self::PcapNg),
             "mvn" => Err(Error::Proprietary { path: path.into() }),
             _ => Err(unknown(path, last)),
         }
@@ -41,11 +55,8 @@ fn unknown(path: &str, ending: &str) -> Error {
     }
 }
 
-const KNOWN: &[&str] = &[".mvnx", ".mvnx.gz"];
+const KNOWN: &[&str] = &[".mvnx", ".mvnx.gz", ".mcap", ".pcap", ".pcapng"];
 const PLANNED: &[(&str, &str)] = &[
-    ("mcap", "MCAP"),
-    ("pcap", "pcap"),
-    ("pcapng", "pcapng"),
     ("bvh", "BVH"),
     ("c3d", "C3D"),
     ("trc", "TRC"),
