@@ -7,7 +7,7 @@ mod sample;
 
 use crate::{Datagram, DatagramCounter, Error, Header, MessageType};
 use character::Character;
-pub use counters::{Counters, QuirkCounts};
+pub use counters::{Counters, QuirkCounts, SampleCounts};
 use events::Events;
 use posewire_motion::{Frame, Stamp, Subject};
 use std::collections::BTreeMap;
@@ -181,6 +181,16 @@ impl Assembler {
         let mut characters: Vec<_> = self.characters.iter().collect();
         characters.sort_by_key(|character| character.id());
         characters.into_iter().flat_map(Character::counters)
+    }
+
+    /// What became of the samples of each character, in ascending order.
+    pub fn samples(&self) -> impl Iterator<Item = (u8, SampleCounts)> {
+        let characters = self.characters.iter();
+        let mut counts: Vec<_> = characters
+            .map(|character| (character.id(), character.sample_counts()))
+            .collect();
+        counts.sort_by_key(|(id, _)| *id);
+        counts.into_iter()
     }
 
     /// The characters of the stream as they are described at present.

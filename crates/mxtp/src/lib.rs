@@ -40,7 +40,7 @@ mod message_type;
 mod quirk;
 mod sequence;
 
-pub use assembler::{Assembler, AssemblerOptions, Counters, Event, QuirkCounts};
+pub use assembler::{Assembler, AssemblerOptions, Counters, Event, QuirkCounts, SampleCounts};
 pub use datagram::Datagram;
 pub use error::Error;
 pub use explain::{Explanation, Field, Value, explain};

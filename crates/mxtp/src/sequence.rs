@@ -1,27 +1,29 @@
 //! The sample counter of one stream: what is missing, late, duplicate, and when it starts anew.
 
+mod before;
 mod pace;
 mod runs;
+mod window;
 
+use before::{Before, Straggler};
 use pace::Pace;
 use posewire_motion::Stamp;
 use runs::{EqualSteps, OldRun};
-use std::collections::VecDeque;
 use std::time::Duration;
+use window::{Window, found_by, missing_in};
 
 /// Follows the sample counter of one message type of one character (MV0305 2.4.1.2).
 ///
 /// The counter runs at the sampling rate, and a sender may stream less often: then it goes up by a constant *stride*,
 /// which is learnt from the first eight steps (or more, when they disagree) and again when eight shorter or sixteen
 /// longer equal steps come in a row. Losses are counted in strides. A counter that wraps around goes on; one that goes
-/// back, or forward further than the time that passed explains, is a reset and no loss.
+/// back, or forward further than the time that passed explains, begins a new session, and what lies between is no loss.
 ///
 /// What is missing depends on the set of samples that came and not on their order: a sample that comes late is no
-/// longer missing.
+/// longer missing. That holds for half a second across the beginning of a session too.
 #[derive(Clone, Debug, Default)]
 pub struct Sequence {
-    /// The samples seen, oldest first, each once.
-    window: VecDeque<u32>,
+    window: Window,
     tally: Tally,
     stride: Option<u32>,
     /// Whether the stride still follows every step of a session that has just begun.
@@ -31,6 +33,7 @@ pub struct Sequence {
     other_steps: EqualSteps,
     old: OldRun,
     pace: Pace,
+    before: Option<Box<Before>>,
 }
 
 /// How often what happened to the samples of a stream.
@@ -42,8 +45,12 @@ pub struct Tally {
     pub duplicate: u64,
     /// Samples that came after a newer one.
     pub late: u64,
-    /// How often the counter started anew: see [`ResetKind`].
+    /// How often the counter started anew: [`ResetKind::Restart`].
     pub reset: u64,
+    /// How often the counter was wound back: [`ResetKind::Rewind`].
+    pub rewound: u64,
+    /// How often the counter jumped ahead: [`ResetKind::Jump`].
+    pub jumped: u64,
 }
 
 /// What a sample number means after those before it.
@@ -58,19 +65,23 @@ pub enum Observation {
     Late,
     /// Seen before.
     Duplicate,
-    /// The counter started anew: this is the newest sample of a new session.
+    /// Of the session before, and seen for the first time: late.
+    Straggler,
+    /// A new session: this is its newest sample.
     Reset(ResetKind),
 }
 
-/// Why a counter is taken to have started anew.
+/// How a session began that is not the first.
+///
+/// A counter is taken to have gone back when it did so further than samples can be late, when it did after half a second
+/// of silence, or when eight known or older samples came in a row and no new one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ResetKind {
-    /// It went back further than samples can be late, or after half a second of silence: a new session, or a recording
-    /// that was wound back.
+    /// The counter went back to where it can have come from 0 since the newest sample: a new session of the sender.
     Restart,
-    /// It went back a little and has gone on from there: eight known or older samples in a row, and no new one.
+    /// The counter went back, but not to its beginning: a recording that was wound back.
     Rewind,
-    /// It went forward further than the time that passed explains.
+    /// The counter went forward further than the time that passed explains.
     Jump,
 }
 
@@ -104,48 +115,76 @@ impl Sequence {
 
     /// The newest sample of the session.
     pub fn newest(&self) -> Option<u32> {
-        self.window.back().copied()
+        self.window.newest()
     }
 
     fn forward(&mut self, sample: u32, step: u32, now: Stamp) -> Observation {
         if self.is_jump(step, now) {
-            return self.reset(ResetKind::Jump, sample, now);
+            let straggler = self.straggler(sample, now);
+            return straggler.unwrap_or_else(|| self.reset(ResetKind::Jump, sample, now));
         }
         self.old.clear();
         self.pace.advance(step, now);
-        self.push(sample);
+        self.window.push(sample);
         if self.settled {
             self.count_step(step);
         } else {
             self.learn();
         }
         Observation::New {
-            missing_before: self.missing_in(step),
+            missing_before: missing_in(step, self.stride),
         }
-    }
-
-    fn push(&mut self, sample: u32) {
-        let leaves = |oldest: &u32| sample.wrapping_sub(*oldest) >= HALF;
-        while self.window.len() >= WINDOW || self.window.front().is_some_and(leaves) {
-            self.window.pop_front();
-        }
-        self.window.push_back(sample);
     }
 
     fn backward(&mut self, sample: u32, behind: u32, now: Stamp) -> Observation {
         if self.is_too_old(behind) || behind > 0 && now.since(self.pace.newest) > SILENCE {
-            return self.reset(ResetKind::Restart, sample, now);
+            let straggler = self.straggler(sample, now);
+            return straggler.unwrap_or_else(|| self.reset(self.kind_of_return(sample, now), sample, now));
         }
         if self.old.extend(sample, self.tally) {
-            return self.rewind(now);
+            return self.take_over_run(now);
         }
-        if let Err(place) = self.place(sample) {
+        if let Some(neighbours) = self.window.insert(sample) {
             self.tally.late += 1;
-            self.insert(place, sample);
+            self.count_inserted(sample, neighbours);
             Observation::Late
         } else {
             self.tally.duplicate += 1;
             Observation::Duplicate
+        }
+    }
+
+    /// Takes a sample for one of the session before, if it can be. Eight of them in a row are not, nor three that go on
+    /// from it: then it was this session that was none.
+    fn straggler(&mut self, sample: u32, now: Stamp) -> Option<Observation> {
+        let before = self.before.as_mut()?;
+        let tally = self.tally;
+        let straggler = before.take(sample, now)?;
+        let continued = before.continued();
+        if self.old.extend(sample, tally) || continued.min(self.old.samples().len()) >= RESUMED {
+            return Some(self.take_over_run(now));
+        }
+        Some(match straggler {
+            Straggler::Again => {
+                self.tally.duplicate += 1;
+                Observation::Duplicate
+            }
+            Straggler::Found(found) => {
+                self.tally.late += 1;
+                self.tally.missing = self.tally.missing.saturating_add_signed(-found);
+                self.missing_before = self.missing_before.saturating_add_signed(-found);
+                Observation::Straggler
+            }
+        })
+    }
+
+    /// What a counter does that goes back to `sample`.
+    fn kind_of_return(&self, sample: u32, now: Stamp) -> ResetKind {
+        let reach = self.pace.counts_until(now) + SHORT_GAP * f64::from(self.stride.unwrap_or(1));
+        if f64::from(sample) <= reach {
+            ResetKind::Restart
+        } else {
+            ResetKind::Rewind
         }
     }
 
@@ -158,32 +197,46 @@ impl Sequence {
 
     /// Whether a sample that far behind the newest cannot be told from a new session's.
     fn is_too_old(&self, behind: u32) -> bool {
-        let (Some(oldest), Some(newest)) = (self.window.front(), self.newest()) else {
+        let (Some(oldest), Some(newest)) = (self.window.oldest(), self.newest()) else {
             return false;
         };
-        let span = newest.wrapping_sub(*oldest);
-        let slack = self.stride.unwrap_or(1).saturating_mul(32).max(WINDOW as u32);
-        behind > span && (self.window.len() == WINDOW || behind > slack)
+        let span = newest.wrapping_sub(oldest);
+        let slack = self.stride.unwrap_or(1).saturating_mul(32).max(Window::SIZE as u32);
+        behind > span && (self.window.is_full() || behind > slack)
     }
 
     fn reset(&mut self, kind: ResetKind, sample: u32, now: Stamp) -> Observation {
-        self.tally.reset += 1;
+        self.count_session(kind);
         self.begin(&[sample], now);
         Observation::Reset(kind)
     }
 
     /// Takes the run of old samples for the beginning of a session: none of them was late or duplicate.
-    fn rewind(&mut self, now: Stamp) -> Observation {
-        let OldRun { samples, before, .. } = self.old;
-        self.tally = before;
-        self.tally.reset += 1;
-        self.begin(&samples, now);
-        Observation::Reset(ResetKind::Rewind)
+    fn take_over_run(&mut self, now: Stamp) -> Observation {
+        let run = self.old;
+        let latest = run.samples().last().copied().unwrap_or_default();
+        let kind = match latest.wrapping_sub(self.newest().unwrap_or(latest)) {
+            1..HALF => ResetKind::Jump,
+            _ => self.kind_of_return(latest, now),
+        };
+        self.tally = run.before;
+        self.count_session(kind);
+        self.begin(run.samples(), now);
+        Observation::Reset(kind)
+    }
+
+    fn count_session(&mut self, kind: ResetKind) {
+        match kind {
+            ResetKind::Restart => self.tally.reset += 1,
+            ResetKind::Rewind => self.tally.rewound += 1,
+            ResetKind::Jump => self.tally.jumped += 1,
+        }
     }
 
     fn begin(&mut self, samples: &[u32], now: Stamp) {
-        self.window.clear();
-        self.window.extend(samples);
+        let ended = std::mem::take(&mut self.window);
+        self.before = (ended.newest().is_some()).then(|| Box::new(Before::new(ended, self.stride, now)));
+        self.window.restart(samples);
         self.missing_before = self.tally.missing;
         self.other_steps = EqualSteps::default();
         self.old.clear();
@@ -194,16 +247,16 @@ impl Sequence {
 
     /// Sets the stride to the most common step of the session so far and counts its losses by it.
     fn learn(&mut self) {
-        let (stride, share) = most_common_step(&self.window);
+        let (stride, share) = self.window.most_common_step();
         self.stride = stride.or(self.stride);
-        let missing: u64 = steps(&self.window).map(|step| u64::from(self.missing_in(step))).sum();
-        self.tally.missing = self.missing_before + missing;
-        let lessons = self.window.len() - 1;
+        let missing = self.window.steps().map(|step| u64::from(missing_in(step, self.stride)));
+        self.tally.missing = self.missing_before + missing.sum::<u64>();
+        let lessons = self.window.steps().count();
         self.settled = lessons >= LONG_LESSON || lessons >= LESSON && 4 * share >= 3 * lessons;
     }
 
     fn count_step(&mut self, step: u32) {
-        let missing = u64::from(self.missing_in(step));
+        let missing = u64::from(missing_in(step, self.stride));
         self.tally.missing += missing;
         let stride = self.stride.unwrap_or(step);
         if step == stride {
@@ -219,59 +272,23 @@ impl Sequence {
         }
     }
 
-    fn insert(&mut self, place: usize, sample: u32) {
+    fn count_inserted(&mut self, sample: u32, neighbours: (Option<u32>, u32)) {
         self.other_steps = EqualSteps::default();
-        let newer = self.window[place];
-        let older = place.checked_sub(1).map(|place| self.window[place]);
-        self.window.insert(place, sample);
-        if self.window.len() > WINDOW {
-            self.window.pop_front();
-        }
         if !self.settled {
             self.learn();
             return;
         }
-        let count = |from: u32, to: u32| u64::from(self.missing_in(to.wrapping_sub(from)));
-        let gap = older.map_or(0, |older| count(older, newer));
-        let halves = older.map_or(0, |older| count(older, sample)) + count(sample, newer);
-        self.tally.missing = (self.tally.missing + halves).saturating_sub(gap);
-    }
-
-    /// Where a sample that is not newer than the newest stands in the window, or would stand.
-    fn place(&self, sample: u32) -> Result<usize, usize> {
-        let newest = self.newest().unwrap_or(sample);
-        let behind = newest.wrapping_sub(sample);
-        self.window
-            .binary_search_by(|seen| behind.cmp(&newest.wrapping_sub(*seen)))
-    }
-
-    /// How many samples are missing between two that are `step` apart.
-    fn missing_in(&self, step: u32) -> u32 {
-        self.stride.map_or(0, |stride| (step / stride).saturating_sub(1))
+        let found = found_by(sample, neighbours, self.stride);
+        self.tally.missing = self.tally.missing.saturating_add_signed(-found);
     }
 }
 
-fn steps(window: &VecDeque<u32>) -> impl Iterator<Item = u32> {
-    window
-        .iter()
-        .zip(window.iter().skip(1))
-        .map(|(older, newer)| newer.wrapping_sub(*older))
-}
-
-/// The most common step between the few samples of a session that has just begun, and how many steps are like it; of
-/// equally common ones the smallest.
-fn most_common_step(window: &VecDeque<u32>) -> (Option<u32>, usize) {
-    let count = |step: u32| steps(window).filter(|other| *other == step).count();
-    let most = steps(window).max_by_key(|step| (count(*step), u32::MAX - step));
-    (most, most.map_or(0, count))
-}
-
-/// How many samples are remembered.
-const WINDOW: usize = 256;
 /// How many steps teach a stride, and how many old samples in a row make a rewind.
 const LESSON: usize = 8;
 /// How many steps teach a stride when fewer than three of four are equal.
 const LONG_LESSON: usize = 64;
+/// How many samples in a row show that the session before goes on.
+const RESUMED: usize = 3;
 /// Strides that may be missing whatever the time says.
 const SHORT_GAP: f64 = 16.0;
 /// After so long nothing older is still on its way.
@@ -298,6 +315,7 @@ mod tests {
             duplicate,
             late,
             reset,
+            ..Tally::default()
         }
     }
 
@@ -378,10 +396,10 @@ mod tests {
     }
 
     #[test]
-    fn a_short_session_that_starts_anew_is_a_rewind() {
+    fn a_short_session_that_starts_anew_is_a_reset() {
         let mut sequence = Sequence::new();
         let seen = observe(&mut sequence, (0..50).chain(0..20));
-        assert_eq!(seen[57], Observation::Reset(ResetKind::Rewind));
+        assert_eq!(seen[57], Observation::Reset(ResetKind::Restart));
         assert_eq!(sequence.tally(), tally(0, 0, 0, 1));
     }
 
@@ -389,16 +407,24 @@ mod tests {
     fn a_rewind_into_a_gap_gives_back_what_was_missing() {
         let mut sequence = Sequence::new();
         observe(&mut sequence, (0..20).chain(30..100).chain(20..60));
-        assert_eq!(sequence.tally(), tally(10, 0, 0, 1));
+        let rewound = Tally {
+            rewound: 1,
+            ..tally(10, 0, 0, 0)
+        };
+        assert_eq!(sequence.tally(), rewound);
         assert_eq!(sequence.newest(), Some(59));
     }
 
     #[test]
-    fn a_jump_forward_is_a_reset_but_an_outage_is_loss() {
+    fn a_jump_forward_is_no_loss_but_an_outage_is() {
         let mut jump = Sequence::new();
         let seen = observe(&mut jump, (0..100).chain(5000..5010));
         assert_eq!(seen[100], Observation::Reset(ResetKind::Jump));
-        assert_eq!(jump.tally(), tally(0, 0, 0, 1));
+        let jumped = Tally {
+            jumped: 1,
+            ..Tally::default()
+        };
+        assert_eq!(jump.tally(), jumped);
 
         let mut outage = Sequence::new();
         observe(&mut outage, 0..100);
@@ -429,5 +455,62 @@ mod tests {
         sequence.pace.newest = sequence.pace.newest.after(Duration::from_hours(1));
         observe(&mut sequence, 100..200);
         assert_eq!(sequence.tally(), Tally::default());
+    }
+
+    #[test]
+    fn a_counter_that_began_anew_during_a_silence_is_a_reset_and_no_rewind() {
+        let mut sequence = Sequence::new();
+        observe(&mut sequence, 0..2000);
+        let later = sequence.pace.newest.after(Duration::from_secs(3));
+        assert_eq!(sequence.observe(740, later), Observation::Reset(ResetKind::Restart));
+        let soon = later.after(Duration::from_millis(4));
+        let mut other = Sequence::new();
+        observe(&mut other, 0..2000);
+        other.pace.newest = later;
+        assert_eq!(other.observe(740, soon), Observation::Reset(ResetKind::Rewind));
+    }
+
+    #[test]
+    fn what_is_left_of_the_session_before_is_late_and_no_session_of_its_own() {
+        let mut sequence = Sequence::new();
+        let before = (0..997).chain([998]);
+        let seen = observe(&mut sequence, before.chain([0, 997, 1, 999, 999, 2, 3]));
+        let expected = [
+            Observation::Reset(ResetKind::Restart),
+            Observation::Straggler,
+            Observation::New { missing_before: 0 },
+            Observation::Straggler,
+            Observation::Duplicate,
+            Observation::New { missing_before: 0 },
+            Observation::New { missing_before: 0 },
+        ];
+        assert_eq!(seen[998..], expected);
+        assert_eq!(sequence.tally(), tally(0, 1, 2, 1));
+    }
+
+    #[test]
+    fn a_sender_that_goes_back_to_the_session_before_is_believed_after_eight_samples() {
+        let mut sequence = Sequence::new();
+        let seen = observe(&mut sequence, (0..1000).chain(0..10).chain(900..950));
+        assert_eq!(seen[1017], Observation::Reset(ResetKind::Jump));
+        let expected = Tally {
+            jumped: 1,
+            ..tally(0, 0, 0, 1)
+        };
+        assert_eq!((sequence.tally(), sequence.newest()), (expected, Some(949)));
+    }
+
+    #[test]
+    fn a_sample_with_a_number_out_of_nowhere_takes_two_others_with_it_at_most() {
+        let mut sequence = Sequence::new();
+        let seen = observe(&mut sequence, (0..1000).chain([1 << 30]).chain(1000..1010));
+        assert_eq!(seen[1000], Observation::Reset(ResetKind::Jump));
+        assert_eq!(seen[1003], Observation::Reset(ResetKind::Rewind));
+        let expected = Tally {
+            rewound: 1,
+            jumped: 1,
+            ..Tally::default()
+        };
+        assert_eq!((sequence.tally(), sequence.newest()), (expected, Some(1009)));
     }
 }

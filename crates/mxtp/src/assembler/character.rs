@@ -1,6 +1,6 @@
 //! One character: the samples that are open, and what was counted.
 
-use super::counters::{Counters, Stream};
+use super::counters::{Counters, SampleCounts, Stream};
 use super::events::Events;
 use super::sample::{OpenSample, Stored, added, segments};
 use super::{Event, MAX_OPEN};
@@ -26,6 +26,10 @@ pub(super) struct Character {
     open: VecDeque<OpenSample>,
     /// The samples closed last.
     closed: VecDeque<ClosedSample>,
+    /// Those that were closed last in the session before, until this one has as many.
+    closed_before: VecDeque<ClosedSample>,
+    done: u64,
+    partial: u64,
     /// The types that the samples closed last had.
     expected: MessageTypes,
     description: Description,
@@ -40,6 +44,8 @@ struct ClosedSample {
     seen: MessageTypes,
     /// Those of which parts were missing.
     incomplete: MessageTypes,
+    /// Those that were to come and did not, incomplete ones included.
+    lacking: MessageTypes,
 }
 
 /// A datagram on its way through, and where what it does is told.
@@ -61,6 +67,9 @@ impl Character {
             samples: Sequence::new(),
             open: VecDeque::new(),
             closed: VecDeque::new(),
+            closed_before: VecDeque::new(),
+            done: 0,
+            partial: 0,
             expected: MessageTypes::NONE,
             description: Description::new(id),
             retired: VecDeque::new(),
@@ -83,6 +92,14 @@ impl Character {
     pub(super) fn counters(&self) -> impl Iterator<Item = (u8, MessageType, &Counters)> {
         let streams = self.streams.iter();
         streams.map(|stream| (self.id, stream.message_type, &stream.counters))
+    }
+
+    pub(super) fn sample_counts(&self) -> SampleCounts {
+        SampleCounts {
+            done: self.done,
+            partial: self.partial,
+            gone: self.samples.tally().missing,
+        }
     }
 
     /// Bytes of parts of split messages.
@@ -199,7 +216,7 @@ impl Character {
             return known;
         }
         match self.samples.observe(header.sample, arrival.now) {
-            Observation::Duplicate => return None,
+            Observation::Duplicate | Observation::Straggler => return None,
             Observation::Reset(_) => self.begin_session(arrival.events),
             Observation::New { .. } | Observation::Late => {}
         }
@@ -215,7 +232,7 @@ impl Character {
     /// Forgets the numbers of the session before, but not what its samples had.
     fn begin_session(&mut self, events: &mut Events) {
         self.close_all(events);
-        self.closed.clear();
+        self.closed_before = std::mem::take(&mut self.closed);
     }
 
     /// Adds a datagram to an open sample.
@@ -288,12 +305,20 @@ impl Character {
 
     /// Takes note of a type that came too late: the samples that follow wait for it. True when parts of it were missing.
     fn note_closed(&mut self, header: &Header) -> bool {
-        let Some(closed) = self.closed.iter_mut().find(|closed| closed.number == header.sample) else {
+        let mut all = self.closed.iter_mut().chain(&mut self.closed_before);
+        let Some(closed) = all.find(|closed| closed.number == header.sample) else {
             return false;
         };
-        closed.seen = closed.seen.with(header.message_type);
-        self.expected = self.expected.with(header.message_type);
-        closed.incomplete.contains(header.message_type)
+        let message_type = header.message_type;
+        closed.seen = closed.seen.with(message_type);
+        self.expected = self.expected.with(message_type);
+        if closed.incomplete.contains(message_type) {
+            return true;
+        }
+        let lacked = !closed.lacking.is_empty();
+        closed.lacking = closed.lacking.difference(MessageTypes::NONE.with(message_type));
+        self.partial -= u64::from(lacked && closed.lacking.is_empty());
+        false
     }
 
     /// Follows a change of the number of segments in the newest sample. What is older is closed as it is, what was
@@ -385,11 +410,15 @@ impl Character {
             stream.counters.incomplete += 1;
             sample.pour(message_type, |quirks| stream.note_quirks(quirks));
         }
-        self.remember(ClosedSample {
+        let closed = ClosedSample {
             number: sample.number,
             seen: sample.seen,
             incomplete,
-        });
+            lacking: self.usual().union(sample.seen).difference(sample.whole),
+        };
+        self.done += 1;
+        self.partial += u64::from(!closed.lacking.is_empty());
+        self.remember(closed);
         let frame = sample.into_frame(self.description.subject());
         self.retire(&frame);
         events.push(Event::Frame(frame));
@@ -398,10 +427,18 @@ impl Character {
     fn remember(&mut self, sample: ClosedSample) {
         if self.closed.len() == MAX_CLOSED {
             self.closed.pop_front();
+            self.closed_before.clear();
         }
         self.closed.push_back(sample);
-        let seen = self.closed.iter().map(|closed| closed.seen);
+        let seen = self.closed.iter().rev().take(EXPECTED_OF).map(|closed| closed.seen);
         self.expected = seen.fold(MessageTypes::NONE, MessageTypes::union);
+    }
+
+    /// The types that samples have had of late.
+    fn usual(&self) -> MessageTypes {
+        let before = self.closed_before.iter().skip(self.closed.len());
+        let seen = self.closed.iter().chain(before).map(|closed| closed.seen);
+        seen.fold(MessageTypes::NONE, MessageTypes::union)
     }
 
     fn retire(&mut self, frame: &Arc<Frame>) {
@@ -436,8 +473,10 @@ fn is_newer(sample: u32, than: u32) -> bool {
     matches!(sample.wrapping_sub(than), 1..0x8000_0000)
 }
 
-/// How many closed samples tell what the next one is to have.
-const MAX_CLOSED: usize = 4;
+/// How many closed samples are remembered.
+const MAX_CLOSED: usize = 16;
+/// How many of them tell what the next one waits for.
+const EXPECTED_OF: usize = 4;
 const MAX_RETIRED: usize = 4;
 /// How many times as long as others the newest sample waits for what it lacks.
 const NEWEST_WAITS: u32 = 10;

@@ -19,8 +19,12 @@ pub struct Counters {
     pub duplicate: u64,
     /// Messages that came after a newer sample's, or when the frame of their sample was already done.
     pub late: u64,
-    /// How often the sample counter started anew.
+    /// How often the sample counter started anew: [`ResetKind::Restart`](crate::ResetKind::Restart).
     pub reset: u64,
+    /// How often the sample counter was wound back: [`ResetKind::Rewind`](crate::ResetKind::Rewind).
+    pub rewound: u64,
+    /// How often the sample counter jumped ahead: [`ResetKind::Jump`](crate::ResetKind::Jump).
+    pub jumped: u64,
     /// Datagrams that do not decode.
     pub malformed: u64,
     /// Split messages that were not whole when their sample was closed.
@@ -33,6 +37,21 @@ pub struct Counters {
     pub last_sample: Option<u32>,
     /// The source's clock at the latest datagram, milliseconds.
     pub last_time_ms: Option<u32>,
+}
+
+/// What became of the samples of one character: where something of them is missing.
+///
+/// A type that is missing in a sample is so either because nothing of the sample came or because only this part of it
+/// did not. The first says that a whole sample was lost or never sent, which cannot be told apart; the second that a
+/// datagram of a sample that was sent did not arrive, or arrived unreadable.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SampleCounts {
+    /// Samples of which something came and that are done.
+    pub done: u64,
+    /// Of these, the ones that lack a type which one of the sixteen samples before them had.
+    pub partial: u64,
+    /// Samples of which nothing came, in strides.
+    pub gone: u64,
 }
 
 /// How often each quirk was found.
@@ -93,7 +112,10 @@ impl Stream {
 
     /// Takes note of the first datagram of a message, or of a message that came again.
     pub(super) fn observe(&mut self, sample: u32, now: Stamp) -> Observation {
+        let duplicate = self.sequence.tally().duplicate;
         let observation = self.sequence.observe(sample, now);
+        // Messages that looked like duplicates until it showed that the counter had gone back.
+        self.counters.received += duplicate.saturating_sub(self.sequence.tally().duplicate);
         self.tally();
         observation
     }
@@ -116,6 +138,8 @@ impl Stream {
         self.counters.duplicate = tally.duplicate + self.parts_again;
         self.counters.late = tally.late + self.too_late;
         self.counters.reset = tally.reset;
+        self.counters.rewound = tally.rewound;
+        self.counters.jumped = tally.jumped;
         self.counters.stride = self.sequence.stride();
         self.counters.last_sample = self.sequence.newest();
     }

@@ -21,7 +21,7 @@ impl EqualSteps {
 /// Samples that are not new, in increasing order, with no new one between them.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct OldRun {
-    pub(super) samples: [u32; LESSON],
+    samples: [u32; LESSON],
     count: usize,
     /// The tally before the first of them.
     pub(super) before: Tally,
@@ -30,6 +30,10 @@ pub(super) struct OldRun {
 impl OldRun {
     pub(super) fn clear(&mut self) {
         self.count = 0;
+    }
+
+    pub(super) fn samples(&self) -> &[u32] {
+        &self.samples[..self.count]
     }
 
     /// Adds a sample; true when there are enough to see that the counter went back.

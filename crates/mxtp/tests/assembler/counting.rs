@@ -1,7 +1,7 @@
 //! What is counted of each stream.
 
 use crate::stream::{Receiver, Sender};
-use posewire_mxtp::{Datagram, Event, Header, MessageType, Quirk};
+use posewire_mxtp::{Datagram, Event, Header, MessageType, Quirk, SampleCounts};
 
 const POSE: MessageType = MessageType::QUATERNION;
 
@@ -52,18 +52,83 @@ fn a_new_session_is_a_reset_and_closes_what_was_open() {
 }
 
 #[test]
-fn a_recording_that_is_wound_back_is_a_reset() {
+fn a_recording_that_is_wound_back_is_no_reset_and_loses_nothing_of_the_counts() {
     let (mut receiver, mut sender) = (Receiver::new(), Sender::new("02,20"));
     receiver.feed_samples(&mut sender, (0..100).chain(50..150));
     for message_type in [POSE, MessageType::JOINT_ANGLES] {
         let counters = receiver.counters(message_type);
         assert_eq!(
-            (counters.reset, counters.missing, counters.late, counters.duplicate),
-            (1, 0, 0, 0)
+            (counters.reset, counters.rewound, counters.jumped),
+            (0, 1, 0),
+            "{message_type}"
         );
+        assert_eq!((counters.missing, counters.late, counters.duplicate), (0, 0, 0));
+        assert_eq!((counters.datagrams, counters.received), (200, 200));
     }
     let expected: Vec<_> = (0..100).chain(57..150).collect();
     assert_eq!(receiver.frame_numbers(), expected);
+}
+
+#[test]
+fn what_is_left_of_the_session_before_is_late_and_makes_no_session() {
+    let (mut receiver, mut sender) = (Receiver::new(), Sender::new("02,20"));
+    receiver.feed_samples(&mut sender, 5000..5100);
+    let last = sender.sample(5100);
+    receiver.feed(last.iter().take(1));
+    receiver.feed_samples(&mut sender, 0..2);
+    receiver.feed(last.iter().skip(1));
+    receiver.feed_samples(&mut sender, 2..100);
+    for (message_type, late) in [(POSE, 0), (MessageType::JOINT_ANGLES, 1)] {
+        let counters = receiver.counters(message_type);
+        assert_eq!((counters.reset, counters.rewound, counters.jumped), (1, 0, 0));
+        assert_eq!((counters.missing, counters.late, counters.received), (0, late, 201));
+    }
+    assert_eq!(receiver.samples(), sample_counts(201, 0, 0));
+}
+
+#[test]
+fn samples_that_lack_a_type_and_samples_that_are_gone_are_told_apart() {
+    let (mut receiver, mut sender) = (Receiver::new(), Sender::new("02,20"));
+    for number in 0..100 {
+        let sample = sender.sample(number);
+        match number {
+            30 => {}
+            50 | 51 => receiver.feed(sample.iter().take(1)),
+            60 => receiver.feed(sample.iter().skip(1)),
+            _ => receiver.feed(sample.iter()),
+        }
+        receiver.wait(crate::stream::PERIOD);
+    }
+    receiver.finish();
+    assert_eq!(receiver.samples(), sample_counts(99, 3, 1));
+    assert_eq!(receiver.counters(POSE).missing, 2);
+    assert_eq!(receiver.counters(MessageType::JOINT_ANGLES).missing, 3);
+}
+
+#[test]
+fn a_sample_is_not_partial_when_what_it_lacked_comes_after_all() {
+    let (mut receiver, mut sender) = (Receiver::new(), Sender::new("02,20"));
+    receiver.feed_samples(&mut sender, 0..20);
+    let held = sender.sample(20);
+    receiver.feed(held.iter().take(1));
+    receiver.feed_samples(&mut sender, 21..30);
+    assert_eq!(receiver.samples().partial, 1);
+    receiver.feed(held.iter().skip(1));
+    receiver.feed_samples(&mut sender, 30..40);
+    assert_eq!(receiver.samples(), sample_counts(40, 0, 0));
+}
+
+#[test]
+fn a_type_that_is_streamed_no_more_is_soon_no_longer_missed() {
+    let (mut receiver, mut sender) = (Receiver::new(), Sender::new("02,20"));
+    receiver.feed_samples(&mut sender, 0..100);
+    let mut fewer = Sender::new("02");
+    receiver.feed_samples(&mut fewer, 100..200);
+    assert_eq!(receiver.samples(), sample_counts(200, 16, 0));
+}
+
+fn sample_counts(done: u64, partial: u64, gone: u64) -> SampleCounts {
+    SampleCounts { done, partial, gone }
 }
 
 #[test]

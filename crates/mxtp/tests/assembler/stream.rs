@@ -2,7 +2,7 @@
 
 use posewire_motion::{DQuat, DVec3, Frame, Skeleton, Stamp, Subject};
 use posewire_mxtp::motion::{Datagrams, Encoder, EncoderOptions};
-use posewire_mxtp::{Assembler, Counters, Event, MessageType, Revision};
+use posewire_mxtp::{Assembler, Counters, Event, MessageType, Revision, SampleCounts};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -80,6 +80,15 @@ impl Receiver {
         let mut counters = self.assembler.counters();
         let found = counters.find(|(_, counted, _)| *counted == message_type);
         found.map(|(_, _, counters)| counters.clone()).unwrap_or_default()
+    }
+
+    /// What became of the samples of the only character.
+    pub(crate) fn samples(&self) -> SampleCounts {
+        self.assembler
+            .samples()
+            .next()
+            .map(|(_, counts)| counts)
+            .unwrap_or_default()
     }
 
     fn poll(&mut self) {
