@@ -22,6 +22,12 @@ impl Datagrams {
         self.ends.clear();
     }
 
+    /// Adds a datagram, as it is.
+    pub fn push(&mut self, datagram: &[u8]) {
+        self.bytes.extend_from_slice(datagram);
+        self.ends.push(self.bytes.len());
+    }
+
     /// Number of datagrams.
     pub fn len(&self) -> usize {
         self.ends.len()
