@@ -54,6 +54,7 @@ Examples:
   posewire stream take.mvnx --to natnet://0.0.0.0            be Motive to NatNet clients
   posewire stream take.mvnx --to \"natnet://0.0.0.0?mode=multicast&interface=eth0\"
   posewire stream natnet://10.0.0.7 --to mxtp://10.0.0.5     Motive's skeletons as MVN's characters
+  posewire stream synthetic:walk --faults loss=1%,reorder=1%,reset@10s,seed=7   with what goes wrong
 
 A take begins when somebody has connected, unless there is a target to which nobody has to connect.
 --types, --character, --revision and --split are for MXTP targets.")]
@@ -90,6 +91,14 @@ pub(crate) struct Stream {
     /// Split MXTP pose data into datagrams of at most so many bytes. MVN does not, and some receivers cannot take it.
     #[arg(long, value_name = "BYTES", value_parser = clap::value_parser!(u32).range(100..=65_507))]
     pub(crate) split: Option<u32>,
+
+    /// Misbehave on purpose, to test who receives: any of
+    /// loss=1%,burst=0.1%x20,dup=0.5%,reorder=1%,jitter=5ms,drift=200ppm,reset@10s,rewind@15s-2s,truncate=0.1%,flip=0.01%,
+    /// nan=0.1%,silence@20s+3s,seed=7.
+    ///
+    /// Shares are of all datagrams, times are since the stream began. The same seed makes the same faults.
+    #[arg(long, value_name = "PLAN")]
+    pub(crate) faults: Option<String>,
 
     /// Begin at once, also when nobody has connected yet.
     #[arg(long)]

@@ -1,5 +1,6 @@
 //! The JSON that verbs print: one object a line. The field names are an interface, described in docs/json.md.
 
+mod faults;
 mod frame;
 mod server;
 mod statistics;

@@ -5,6 +5,7 @@ mod server;
 pub(crate) use server::{delivery, kind, model, unknown_latencies};
 
 use crate::plain::{cut, printable};
+use posewire::faults::FaultCounts;
 use posewire::sink::{ClientProgress, Progress};
 use posewire::source::Preview;
 use posewire::stats::{Statistics, StreamStatistics, SubjectStatistics};
@@ -62,7 +63,22 @@ pub(crate) fn stream_summary(progress: &Progress, unsent: u64) -> String {
         }
         target.clients.iter().for_each(|client| client_line(&mut text, client));
     }
+    if let Some(faults) = &progress.faults {
+        _ = write!(text, "\n{}", made(faults));
+    }
     text
+}
+
+/// The faults that were made on purpose, on one line.
+pub(crate) fn made(counts: &FaultCounts) -> String {
+    let kinds: Vec<_> = counts.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
+    let kinds = if kinds.is_empty() {
+        "none".to_owned()
+    } else {
+        kinds.join(", ")
+    };
+    let FaultCounts { taken, sent, .. } = counts;
+    format!("faults made on purpose: {kinds}; of {taken} datagrams {sent} left")
 }
 
 fn client_line(text: &mut String, client: &ClientProgress) {
@@ -141,7 +157,7 @@ fn stream_row(text: &mut String, stream: &StreamStatistics) {
         counters.missing,
         counters.duplicate,
         counters.late,
-        counters.reset,
+        counters.restarts(),
         counters.incomplete,
         milliseconds(stream.interval.p99),
         milliseconds(stream.interval.max),

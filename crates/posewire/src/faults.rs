@@ -23,6 +23,7 @@ mod damage;
 mod delay;
 mod draw;
 mod kind;
+mod live;
 mod numbering;
 mod outgoing;
 mod parse;
@@ -30,6 +31,7 @@ mod plan;
 
 pub use counts::{FaultCounts, FaultedStream};
 pub use kind::FaultKind;
+pub use live::LiveFaults;
 pub use plan::{Burst, FaultPlan, Rewind, Silence};
 
 use delay::{Delayed, Held};
@@ -102,6 +104,7 @@ impl Faults {
         };
         if is_met {
             self.counts.add(outgoing.stream, kind);
+            outgoing.damaged = matches!(kind, FaultKind::Truncate | FaultKind::Flip);
         }
         match kind {
             FaultKind::Silence | FaultKind::Burst | FaultKind::Loss => {}

@@ -61,8 +61,24 @@ pub struct SubjectStatistics {
     pub timecode: Option<Timecode>,
     /// The streams that are its own, by kind; none where a server's frames hold every subject.
     pub streams: Vec<StreamStatistics>,
+    /// What became of its samples; `None` where it shares them with others, as all subjects of a NatNet server do.
+    pub samples: Option<SampleCounts>,
     /// How much of it is tracked, where the protocol says; `None` also for one without segments.
     pub tracking: Option<Tracking>,
+}
+
+/// What became of the samples of a subject, each of which has a message of each of its types.
+///
+/// What a stream is missing is in the samples that are gone, or else in partial ones.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SampleCounts {
+    /// Samples of which something came and that are done.
+    pub done: u64,
+    /// Of these, the ones that lack a type which one of the sixteen samples before them had: a datagram that was sent did
+    /// not arrive, or arrived unreadable.
+    pub partial: u64,
+    /// Samples of which nothing came, in strides: lost on the way, or never sent. Which of the two cannot be known.
+    pub gone: u64,
 }
 
 /// How well a subject is tracked.
@@ -104,8 +120,12 @@ pub struct Counters {
     pub duplicate: u64,
     /// Messages that came after a newer sample's.
     pub late: u64,
-    /// How often the sample counter started anew.
+    /// How often the sample counter started anew; of NatNet, how often the frame number jumped, whichever way.
     pub reset: u64,
+    /// How often the sample counter was wound back, but not to its beginning.
+    pub rewound: u64,
+    /// How often the sample counter went forward further than the time that passed explains.
+    pub jumped: u64,
     /// Datagrams that do not decode.
     pub malformed: u64,
     /// Split messages that never became whole.
@@ -114,6 +134,13 @@ pub struct Counters {
     pub stride: Option<u32>,
     /// Datagrams that deviate from the specification, by how they do; only those that were found, in order.
     pub quirks: Vec<(Quirk, u64)>,
+}
+
+impl Counters {
+    /// How often a new numbering began, however.
+    pub const fn restarts(&self) -> u64 {
+        self.reset + self.rewound + self.jumped
+    }
 }
 
 impl Statistics {

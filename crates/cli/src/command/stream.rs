@@ -11,6 +11,7 @@ use crate::context::{self, Teller, end_progress, say, show_progress};
 use crate::{json, render};
 use peers::Peers;
 use posewire::endpoint::Endpoint;
+use posewire::faults::FaultPlan;
 use posewire::sink::Progress;
 use posewire::source::{PlaybackOptions, Preview};
 use posewire::{Session, Source};
@@ -27,15 +28,19 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
         .map(|url| url.parse())
         .collect::<posewire::Result<Vec<Endpoint>>>()?;
     refuse::endless(&from, &targets)?;
+    let plan = arguments.faults.as_deref().map(str::parse::<FaultPlan>).transpose()?;
     let source = Source::open(&from, &playback_options(&arguments.playback))?;
     if source.is_live() {
         refuse::playback(&arguments.playback)?;
         context::stop_after(&stop, arguments.playback.duration);
     }
     refuse::endless(source.endpoint(), &targets)?;
-    let sinks = Sinks::open(arguments, &source, &targets)?;
+    let sinks = Sinks::open(arguments, &source, &targets, plan.as_ref())?;
     let progress = sinks.progress();
     announce(&source, sinks.types, &progress.read());
+    if let Some(plan) = &plan {
+        say(format_args!("faults on purpose: {plan}"));
+    }
     let mut peers = Peers::of(&progress.read());
     if !source.is_live() && !arguments.no_wait && !sinks.is_ready() {
         say("waiting for somebody to connect");
@@ -55,7 +60,7 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
     let progress = progress.read();
     let unsent = teller.kernel_dropped() + outcome.as_ref().map_or(0, |outcome| outcome.dropped);
     if arguments.json {
-        json::print(&json::StreamRecord::new(&progress, unsent))?;
+        json::print(&json::StreamRecord::new(&progress, unsent, plan.as_ref()))?;
     } else {
         say(render::stream_summary(&progress, unsent));
     }

@@ -1,7 +1,7 @@
 //! How a stream is doing that we receive.
 
 use super::{Spread, rounded};
-use posewire::stats::{Statistics, StreamStatistics};
+use posewire::stats::{SampleCounts, Statistics, StreamStatistics};
 use posewire_motion::Subject;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -54,14 +54,34 @@ pub(crate) struct StatisticsRecord<'a> {
     duplicate: u64,
     late: u64,
     reset: u64,
+    rewound: u64,
+    jumped: u64,
     malformed: u64,
     incomplete: u64,
     kernel_dropped: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    samples: Option<SamplesRecord>,
     datagrams: u64,
     quirks: BTreeMap<&'static str, u64>,
     interval_ms: Spread,
     elapsed_s: f64,
     ended: bool,
+}
+
+/// What became of the samples of a character.
+#[derive(Serialize)]
+struct SamplesRecord {
+    done: u64,
+    partial: u64,
+    gone: u64,
+}
+
+impl SamplesRecord {
+    fn of(all: &Statistics, subject: &Arc<Subject>) -> Option<Self> {
+        let found = all.subjects.iter().find(|of| Arc::ptr_eq(&of.subject, subject))?;
+        let SampleCounts { done, partial, gone } = found.samples?;
+        Some(Self { done, partial, gone })
+    }
 }
 
 /// One record for each character and datagram type, and one for the frames of a server.
@@ -86,9 +106,12 @@ impl<'a> StatisticsRecord<'a> {
             duplicate: counters.duplicate,
             late: counters.late,
             reset: counters.reset,
+            rewound: counters.rewound,
+            jumped: counters.jumped,
             malformed: counters.malformed,
             incomplete: counters.incomplete,
             kernel_dropped: all.kernel_dropped,
+            samples: subject.and_then(|subject| SamplesRecord::of(all, subject)),
             datagrams: counters.datagrams,
             quirks: counters
                 .quirks

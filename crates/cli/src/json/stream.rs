@@ -1,6 +1,8 @@
 //! How a stream went that we sent.
 
 use super::Spread;
+use super::faults::FaultsRecord;
+use posewire::faults::FaultPlan;
 use posewire::sink::{ClientProgress, ClientState, LeftOut, Progress, TargetProgress};
 use serde::Serialize;
 
@@ -14,6 +16,7 @@ pub(crate) struct StreamRecord<'a> {
     lateness_ms: Spread,
     targets: Vec<TargetRecord<'a>>,
     left_out: Vec<LeftOutRecord<'a>>,
+    faults: Option<FaultsRecord>,
 }
 
 #[derive(Serialize)]
@@ -45,7 +48,8 @@ struct ClientRecord<'a> {
 
 impl<'a> StreamRecord<'a> {
     /// `unsent` is what of a live source was lost on this machine before it could be sent.
-    pub(crate) fn new(progress: &'a Progress, unsent: u64) -> Self {
+    pub(crate) fn new(progress: &'a Progress, unsent: u64, plan: Option<&FaultPlan>) -> Self {
+        let faults = plan.zip(progress.faults.as_ref());
         Self {
             kind: "stream",
             frames: progress.frames,
@@ -54,6 +58,7 @@ impl<'a> StreamRecord<'a> {
             lateness_ms: progress.lateness.into(),
             targets: progress.targets.iter().map(TargetRecord::of).collect(),
             left_out: progress.left_out.iter().map(LeftOutRecord::of).collect(),
+            faults: faults.map(|(plan, counts)| FaultsRecord::new(plan, counts)),
         }
     }
 }

@@ -109,7 +109,7 @@ fn frames_row(text: &mut String, server: &ServerStatistics) {
         counters.missing,
         counters.duplicate,
         counters.late,
-        counters.reset,
+        counters.restarts(),
         counters.malformed,
         milliseconds(frames.interval.p99),
         milliseconds(frames.interval.max),

@@ -50,6 +50,18 @@ impl FaultCounts {
         all.filter(|(_, count)| *count > 0)
     }
 
+    /// These and others together.
+    #[must_use]
+    pub fn and(mut self, others: &Self) -> Self {
+        self.taken += others.taken;
+        self.sent += others.sent;
+        for (stream, counts) in &others.streams {
+            let sums = self.streams.entry(*stream).or_default();
+            sums.iter_mut().zip(counts).for_each(|(sum, count)| *sum += count);
+        }
+        self
+    }
+
     pub(super) fn add(&mut self, stream: FaultedStream, kind: FaultKind) {
         self.streams.entry(stream).or_default()[kind as usize] += 1;
     }

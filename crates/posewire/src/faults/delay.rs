@@ -54,8 +54,12 @@ impl Held {
         None
     }
 
-    /// Those that `leaving` is the last to overtake. Parts of one sample do not overtake each other.
+    /// Those that `leaving` is the last to overtake. Parts of one sample do not overtake each other, and what is damaged
+    /// overtakes nothing, as nobody may see that it did.
     pub(super) fn overtaken_by(&mut self, leaving: &Outgoing) -> Vec<Outgoing> {
+        if leaving.damaged {
+            return Vec::new();
+        }
         let overtakes = |waiting: &Waiting| {
             let held = &waiting.outgoing;
             held.stream == leaving.stream && (held.sample().is_none() || held.sample() != leaving.sample())

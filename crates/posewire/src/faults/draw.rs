@@ -47,11 +47,19 @@ mod tests {
 
     #[test]
     fn a_fault_meets_as_many_as_it_is_to() {
-        for (percent, expected) in [(0.0, 0..=0), (1.0, 900..=1100), (50.0, 49_500..=50_500), (100.0, 100_000..=100_000)] {
+        for (percent, expected) in [
+            (0.0, 0..=0),
+            (1.0, 900..=1100),
+            (50.0, 49_500..=50_500),
+            (100.0, 100_000..=100_000),
+        ] {
             for seed in 0..3 {
                 let draws = (0..100_000).map(|index| Draw::new(seed, index));
                 let met = draws.filter(|draw| draw.meets(FaultKind::Loss, percent)).count();
-                assert!(expected.contains(&met), "{percent} % met {met} of 100000 with seed {seed}");
+                assert!(
+                    expected.contains(&met),
+                    "{percent} % met {met} of 100000 with seed {seed}"
+                );
             }
         }
     }

@@ -29,7 +29,11 @@ impl Numbering {
         if self.latest.replace(sample) == Some(sample) {
             return;
         }
-        while plan.rewinds.get(self.rewinds_done).is_some_and(|rewind| rewind.at <= now) {
+        while plan
+            .rewinds
+            .get(self.rewinds_done)
+            .is_some_and(|rewind| rewind.at <= now)
+        {
             let back = plan.rewinds[self.rewinds_done].back;
             self.rewinds_done += 1;
             self.rewind(back, samples_in(back, first, (now, sample)), sample, time_ms);
@@ -45,8 +49,8 @@ impl Numbering {
     /// The events that this stream has not shown yet.
     pub(super) fn unseen(&mut self, stream: FaultedStream) -> Vec<FaultKind> {
         let known = self.events.len();
-        let shown = self.shown.insert(stream, known).unwrap_or(0);
         // A stream that begins later shows nothing of what was before.
+        let shown = self.shown.insert(stream, known).unwrap_or(known);
         self.events[shown..].to_vec()
     }
 

@@ -11,6 +11,8 @@ pub(super) struct Outgoing {
     pub(super) bytes: Vec<u8>,
     /// How many of it leave.
     pub(super) copies: u8,
+    /// Whether a reader may find nothing in it that tells what it was.
+    pub(super) damaged: bool,
     numbers: Numbers,
 }
 
@@ -30,6 +32,7 @@ impl Outgoing {
             stream,
             bytes: bytes.to_vec(),
             copies: 1,
+            damaged: false,
             numbers,
         }
     }

@@ -1,5 +1,6 @@
 //! How far a stream has come.
 
+use crate::faults::FaultCounts;
 use crate::histogram::Summary;
 use posewire_natnet::Version;
 use std::net::SocketAddr;
@@ -15,6 +16,8 @@ pub struct Progress {
     pub targets: Vec<TargetProgress>,
     /// What of the source cannot be sent, each once.
     pub left_out: Vec<LeftOut>,
+    /// What was done to the datagrams on purpose, where a plan says so; in all targets together.
+    pub faults: Option<FaultCounts>,
 }
 
 /// Something of the source that cannot be sent.
@@ -48,6 +51,10 @@ impl Progress {
         }
         self.targets.extend(other.targets);
         self.left_out.extend(other.left_out);
+        self.faults = match (self.faults, other.faults) {
+            (Some(ours), Some(others)) => Some(ours.and(&others)),
+            (ours, others) => ours.or(others),
+        };
         self
     }
 }
@@ -119,6 +126,7 @@ mod tests {
                 ..TargetProgress::default()
             }],
             left_out: Vec::new(),
+            faults: None,
         };
         let all = Progress::of_all([progress(240, 3, "mxtp://a", 1), progress(238, 5, "natnet://b", 2)]);
         let endpoints: Vec<_> = all.targets.iter().map(|target| target.endpoint.as_str()).collect();

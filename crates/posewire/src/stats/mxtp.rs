@@ -7,7 +7,7 @@ use posewire_motion::{Stamp, Subject, Timecode};
 use posewire_mxtp::{Assembler, MessageType};
 
 use super::arrivals::Arrivals;
-use super::{Counters, Statistics, SubjectStatistics};
+use super::{Counters, SampleCounts, Statistics, SubjectStatistics};
 
 /// Counts what arrives on a live stream, besides what the assembler counts.
 #[derive(Debug)]
@@ -77,10 +77,14 @@ impl Tally {
             counted.entry(character).or_default().push((message_type, counters));
         }
         let mut counted = |character| counted.remove(&character).unwrap_or_default();
+        let samples: BTreeMap<_, _> = assembler.samples().collect();
         let subjects = self
             .subjects
             .iter_mut()
-            .map(|(character, heard)| heard.report(counted(*character), ended));
+            .map(|(character, heard)| SubjectStatistics {
+                samples: samples.get(character).map(Into::into),
+                ..heard.report(counted(*character), ended)
+            });
         Statistics {
             at: edge.now,
             elapsed: edge.now.since(self.started),
@@ -121,8 +125,16 @@ impl Heard {
             subject: Arc::clone(&self.subject),
             timecode: self.timecode,
             streams,
+            samples: None,
             tracking: None,
         }
+    }
+}
+
+impl From<&posewire_mxtp::SampleCounts> for SampleCounts {
+    fn from(counted: &posewire_mxtp::SampleCounts) -> Self {
+        let posewire_mxtp::SampleCounts { done, partial, gone } = *counted;
+        Self { done, partial, gone }
     }
 }
 
@@ -136,6 +148,8 @@ impl From<&posewire_mxtp::Counters> for Counters {
             duplicate: counted.duplicate,
             late: counted.late,
             reset: counted.reset,
+            rewound: counted.rewound,
+            jumped: counted.jumped,
             malformed: counted.malformed,
             incomplete: counted.incomplete,
             stride: counted.stride,

@@ -209,6 +209,8 @@ impl NatNetTally {
             duplicate: counts.duplicate + counts.repeated,
             late: counts.late,
             reset: counts.jumps,
+            rewound: 0,
+            jumped: 0,
             malformed: counts.malformed,
             incomplete: 0,
             stride: (counts.received > 1).then_some(1),
@@ -265,6 +267,7 @@ impl Heard {
             subject: Arc::clone(&self.subject),
             timecode: self.timecode,
             streams: Vec::new(),
+            samples: None,
             tracking: (segments > 0).then_some(tracking),
         }
     }

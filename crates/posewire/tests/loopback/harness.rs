@@ -63,7 +63,7 @@ impl Gathered {
                 counters.missing,
                 counters.duplicate,
                 counters.late,
-                counters.reset,
+                counters.restarts(),
                 counters.incomplete,
             ];
             let of = subject.map(|subject| subject.id);

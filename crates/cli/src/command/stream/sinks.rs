@@ -3,6 +3,7 @@
 use super::{refuse, types};
 use crate::cli::{Revision, Stream};
 use posewire::endpoint::Endpoint;
+use posewire::faults::FaultPlan;
 use posewire::sink::{MxtpSink, MxtpSinkOptions, NatNetSink, NatNetSinkOptions, Progress};
 use posewire::stop::Stop;
 use posewire::{Sink, Source};
@@ -19,7 +20,13 @@ pub(super) struct Sinks {
 }
 
 impl Sinks {
-    pub(super) fn open(arguments: &Stream, source: &Source, targets: &[Endpoint]) -> anyhow::Result<Self> {
+    /// Opens a sink for every target; each makes the faults of the plan by itself.
+    pub(super) fn open(
+        arguments: &Stream,
+        source: &Source,
+        targets: &[Endpoint],
+        faults: Option<&FaultPlan>,
+    ) -> anyhow::Result<Self> {
         let mut natnet_addresses = Vec::new();
         let mut others = Vec::new();
         for target in targets {
@@ -28,10 +35,16 @@ impl Sinks {
                 other => others.push(other.clone()),
             }
         }
-        let mxtp = mxtp_options(arguments, source, &others)?;
+        let mxtp = mxtp_options(arguments, source, &others)?.map(|options| MxtpSinkOptions {
+            faults: faults.cloned(),
+            ..options
+        });
         let types = mxtp.as_ref().map(|options| options.types);
         let mxtp = mxtp.map(|options| MxtpSink::open(&others, options)).transpose()?;
-        let options = natnet_options(arguments, source);
+        let options = NatNetSinkOptions {
+            faults: faults.cloned(),
+            ..natnet_options(arguments, source)
+        };
         let open = |address| NatNetSink::open(address, options.clone());
         let mut natnet = natnet_addresses
             .into_iter()
@@ -90,6 +103,7 @@ fn mxtp_options(arguments: &Stream, source: &Source, targets: &[Endpoint]) -> an
         character: arguments.character,
         name: arguments.name.clone(),
         fit: matches!(source.endpoint(), Endpoint::NatNet(_)),
+        faults: None,
     };
     refuse::too_many(source, &options)?;
     Ok(Some(options))

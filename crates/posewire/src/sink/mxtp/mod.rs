@@ -7,6 +7,7 @@ mod tcp;
 use super::OnlySource;
 use super::{Progress, Sink, TargetProgress};
 use crate::endpoint::Endpoint;
+use crate::faults::{FaultPlan, LiveFaults};
 use crate::histogram::DurationHistogram;
 use crate::stop::Stop;
 use crate::{Error, Item, Result, SourceId};
@@ -35,6 +36,8 @@ pub struct MxtpSinkOptions {
     /// Whether subjects are fitted to MVN's skeleton, as those of another system must be: skeletons are recognised by
     /// the names of their segments, as MVN or Motive has them, and what is no person is left out.
     pub fit: bool,
+    /// What is to go wrong with the datagrams, the same for every target.
+    pub faults: Option<FaultPlan>,
 }
 
 impl Default for MxtpSinkOptions {
@@ -47,6 +50,7 @@ impl Default for MxtpSinkOptions {
             character: 0,
             name: None,
             fit: false,
+            faults: None,
         }
     }
 }
@@ -63,6 +67,7 @@ pub struct MxtpSink {
     characters: BTreeMap<u32, Character>,
     fitting: Option<Fitting>,
     datagrams: Datagrams,
+    faults: Option<LiveFaults>,
     progress: Arc<Mutex<Progress>>,
     lateness: DurationHistogram,
     next_summary: Instant,
@@ -85,6 +90,7 @@ impl MxtpSink {
         let targets = targets.iter().map(Target::open).collect::<Result<Vec<_>>>()?;
         let sink = Self {
             fitting: options.fit.then(Fitting::default),
+            faults: options.faults.clone().map(LiveFaults::new),
             options,
             only: OnlySource::default(),
             targets,
@@ -192,24 +198,38 @@ impl MxtpSink {
         let Some(character) = self.characters.get_mut(&frame.subject.id) else {
             return Ok(());
         };
-        let now = Instant::now();
+        // By what was due rather than by the clock, so that a take is the same datagrams whenever it is played.
+        let now = due.unwrap_or_else(Instant::now);
         if character.next_description.is_none_or(|next| next <= now) {
             character.next_description = Some(now + DESCRIBE_EVERY);
             self.datagrams.clear();
             character
                 .encoder
                 .encode_subject(&character.subject, &mut self.datagrams);
-            send(&mut self.targets, &self.datagrams)?;
+            send(&mut self.targets, &mut self.datagrams, &mut self.faults, now)?;
         }
         self.datagrams.clear();
         character.encoder.encode_frame(frame, &mut self.datagrams);
-        send(&mut self.targets, &self.datagrams)?;
+        send(&mut self.targets, &mut self.datagrams, &mut self.faults, now)?;
         let sent = Instant::now();
         if let Some(due) = due {
             self.lateness.record(sent.saturating_duration_since(due));
         }
         self.count(sent);
         Ok(())
+    }
+
+    /// Sends what faults have let go.
+    fn send_faulty(&mut self) -> Result<()> {
+        let Some(faults) = &mut self.faults else {
+            return Ok(());
+        };
+        leave(faults, &mut self.datagrams);
+        if self.datagrams.is_empty() {
+            return Ok(());
+        }
+        let datagrams = &self.datagrams;
+        self.targets.iter_mut().try_for_each(|target| target.send(datagrams))
     }
 
     fn count(&mut self, now: Instant) {
@@ -219,6 +239,7 @@ impl MxtpSink {
             self.next_summary = now + SUMMARISE_EVERY;
             progress.lateness = self.lateness.summary();
             progress.targets = self.targets.iter().map(Target::progress).collect();
+            progress.faults = self.faults.as_ref().map(|faults| faults.counts().clone());
         }
     }
 
@@ -227,8 +248,29 @@ impl MxtpSink {
     }
 }
 
-fn send(targets: &mut [Target], datagrams: &Datagrams) -> Result<()> {
+/// Sends datagrams that were due, or what faults make of them.
+fn send(
+    targets: &mut [Target],
+    datagrams: &mut Datagrams,
+    faults: &mut Option<LiveFaults>,
+    due: Instant,
+) -> Result<()> {
+    if let Some(faults) = faults {
+        datagrams.iter().for_each(|datagram| faults.handle(due, datagram));
+        leave(faults, datagrams);
+    }
+    if datagrams.is_empty() {
+        return Ok(());
+    }
     targets.iter_mut().try_for_each(|target| target.send(datagrams))
+}
+
+/// Puts what leaves now into `datagrams`.
+fn leave(faults: &mut LiveFaults, datagrams: &mut Datagrams) {
+    datagrams.clear();
+    while let Some(datagram) = faults.poll() {
+        datagrams.push(&datagram);
+    }
 }
 
 impl Sink for MxtpSink {
@@ -241,7 +283,22 @@ impl Sink for MxtpSink {
         }
     }
 
+    fn timeout(&self) -> Option<Instant> {
+        self.faults.as_ref()?.timeout()
+    }
+
+    fn handle_timeout(&mut self) -> Result<()> {
+        if let Some(faults) = &mut self.faults {
+            faults.handle_timeout(Instant::now());
+        }
+        self.send_faulty()
+    }
+
     fn finish(&mut self) -> Result<()> {
+        if let Some(faults) = &mut self.faults {
+            faults.finish();
+        }
+        let sent = self.send_faulty();
         // Those who are served to the end, and not nobody, which is who is left after it.
         let peers: Vec<_> = self.targets.iter().map(|target| target.progress().peers).collect();
         self.targets.iter_mut().for_each(Target::finish);
@@ -251,7 +308,8 @@ impl Sink for MxtpSink {
         progress.targets = targets
             .map(|(target, peers)| TargetProgress { peers, ..target })
             .collect();
-        Ok(())
+        progress.faults = self.faults.as_ref().map(|faults| faults.counts().clone());
+        sent
     }
 }
 

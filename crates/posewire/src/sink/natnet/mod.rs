@@ -1,5 +1,6 @@
 //! NatNet to its clients, as Motive serves it.
 
+mod faulty;
 mod gathering;
 mod ledger;
 mod ports;
@@ -8,6 +9,7 @@ mod serving;
 use super::OnlySource;
 use super::{Progress, Sink};
 use crate::endpoint::NatNetAddress;
+use crate::faults::FaultPlan;
 use crate::stop::Stop;
 use crate::{Item, Result, SourceId};
 use gathering::Share;
@@ -16,7 +18,7 @@ use posewire_motion::{Frame, Subject};
 use serving::Serving;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How clients are served.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +29,8 @@ pub struct NatNetSinkOptions {
     pub rate: Option<f64>,
     /// Silence after which a client is dropped and told so; `None` for never.
     pub silence_limit: Option<Duration>,
+    /// What is to go wrong with the frames; answers to clients are spared.
+    pub faults: Option<FaultPlan>,
 }
 
 impl Default for NatNetSinkOptions {
@@ -36,6 +40,7 @@ impl Default for NatNetSinkOptions {
             name: None,
             rate: None,
             silence_limit: Some(Duration::from_secs(10)),
+            faults: None,
         }
     }
 }
@@ -179,6 +184,16 @@ impl Sink for NatNetSink {
             }
             _ => Ok(()),
         }
+    }
+
+    fn timeout(&self) -> Option<Instant> {
+        self.options.faults.as_ref()?;
+        self.shared.lock().faults_timeout()
+    }
+
+    fn handle_timeout(&mut self) -> Result<()> {
+        self.shared.lock().send_delayed(Instant::now());
+        Ok(())
     }
 
     fn finish(&mut self) -> Result<()> {

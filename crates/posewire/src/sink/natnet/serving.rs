@@ -1,6 +1,7 @@
 //! What a NatNet sink does, whichever of its threads does it.
 
 use super::NatNetSinkOptions;
+use super::faulty::FaultyFrames;
 use super::gathering::{Gathering, Share};
 use super::ledger::Ledger;
 use super::ports::Ports;
@@ -40,6 +41,9 @@ pub(super) struct Serving {
     next_summary: Instant,
     /// Subjects of which a frame has been looked at.
     seen: BTreeSet<u32>,
+    faults: Option<FaultyFrames>,
+    /// When the frame that is being sent was due.
+    frame_due: Instant,
 }
 
 impl Serving {
@@ -71,6 +75,8 @@ impl Serving {
             progress: Arc::default(),
             next_summary: Instant::now(),
             seen: BTreeSet::new(),
+            faults: options.faults.clone().map(FaultyFrames::new),
+            frame_due: Instant::now(),
         };
         serving.publish();
         serving
@@ -146,9 +152,26 @@ impl Serving {
         Ok(())
     }
 
+    /// When [`send_delayed`](Self::send_delayed) is next due.
+    pub(super) fn faults_timeout(&self) -> Option<Instant> {
+        self.faults.as_ref()?.timeout()
+    }
+
+    /// Sends the frames that faults have delayed until `now`.
+    pub(super) fn send_delayed(&mut self, now: Instant) {
+        if let Some(faults) = &mut self.faults {
+            faults.handle_timeout(now);
+        }
+        self.send_faulty();
+    }
+
     /// Sends what is left and says goodbye.
     pub(super) fn finish(&mut self) -> Result<()> {
         let sent = self.send();
+        if let Some(faults) = &mut self.faults {
+            faults.finish();
+        }
+        self.send_faulty();
         self.server.close();
         self.act();
         self.publish();
@@ -199,6 +222,8 @@ impl Serving {
             return Ok(());
         }
         let mut frame = self.encoder.frame(shares.iter().map(|share| &*share.frame));
+        let due = shares.iter().filter_map(|share| share.due).min();
+        self.frame_due = due.unwrap_or_else(Instant::now);
         frame.host_stamps = Some(self.host_stamps(&shares));
         if self.server.send_frame(&frame).is_err() {
             self.ledger.count_too_large();
@@ -236,6 +261,23 @@ impl Serving {
     }
 
     fn transmit(&mut self, transmit: &Transmit) {
+        match &mut self.faults {
+            Some(faults) if transmit.socket == Socket::Data => {
+                faults.handle(self.frame_due, transmit);
+                self.send_faulty();
+            }
+            _ => self.send_packet(transmit),
+        }
+    }
+
+    /// Sends what faults have let go.
+    fn send_faulty(&mut self) {
+        while let Some(frame) = self.faults.as_mut().and_then(FaultyFrames::poll) {
+            self.send_packet(&frame);
+        }
+    }
+
+    fn send_packet(&mut self, transmit: &Transmit) {
         let sent = self.ports.send(transmit);
         if transmit.socket == Socket::Data {
             self.ledger.count(transmit.to, sent);
@@ -281,6 +323,7 @@ impl Serving {
         let mut progress = self.progress.lock().unwrap_or_else(PoisonError::into_inner);
         progress.frames = self.frames;
         progress.lateness = self.lateness.summary();
+        progress.faults = self.faults.as_ref().map(FaultyFrames::counts);
         progress.targets = vec![self.ledger.progress(&self.endpoint, self.group.is_some())];
     }
 }

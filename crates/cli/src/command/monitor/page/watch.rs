@@ -158,7 +158,7 @@ fn type_row(stream: &StreamStatistics) -> TypeRow {
         missing: counters.missing,
         duplicate: counters.duplicate,
         late: counters.late,
-        reset: counters.reset,
+        reset: counters.restarts(),
         incomplete: counters.incomplete,
         malformed: counters.malformed,
         quirks: counters.quirks.clone(),
