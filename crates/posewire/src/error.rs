@@ -204,6 +204,24 @@ pub enum Error {
         /// What the system says.
         reason: String,
     },
+    /// A file that is there and must not be overwritten.
+    #[error("{path} is there already")]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file that is no MCAP file.
+    #[error("{path} is not an MCAP file")]
+    NotMcap {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A recording whose chunks somebody has compressed.
+    #[error("the chunks of {path} are compressed")]
+    Compressed {
+        /// The file.
+        path: PathBuf,
+    },
     /// A playback speed that no clock can run at.
     #[error("expected a finite playback speed above 0, found {found}")]
     Speed {
@@ -255,6 +273,11 @@ impl Error {
             Self::Descriptions { .. } => Some("stream fewer people to NatNet".into()),
             Self::Character { .. } => Some("start at a lower --character, or stream fewer people".into()),
             Self::Write { .. } => Some("make room there, or send the output elsewhere".into()),
+            Self::Exists { .. } => Some("choose another name, or --overwrite it".into()),
+            Self::NotMcap { .. } => Some("give a file that posewire record has written".into()),
+            Self::Compressed { .. } => {
+                Some("mcap compress --compression none, a tool of mcap.dev, writes it anew".into())
+            }
             Self::Speed { .. } => Some("1 is real time, 0.5 half as fast".into()),
             Self::Faults { .. } => Some("as in --faults loss=1%,reorder=0.5%,reset@10s,seed=7".into()),
         }

@@ -41,6 +41,7 @@ mod item;
 pub mod net;
 pub mod pacer;
 pub mod queue;
+pub mod recording;
 mod session;
 pub mod sink;
 pub mod source;

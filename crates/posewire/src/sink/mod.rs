@@ -3,10 +3,12 @@
 mod mxtp;
 mod natnet;
 mod progress;
+mod record;
 
 pub use mxtp::{MxtpSink, MxtpSinkOptions};
 pub use natnet::{NatNetSink, NatNetSinkOptions};
 pub use progress::{ClientProgress, ClientState, LeftOut, Progress, TargetProgress};
+pub use record::{RecordOptions, RecordProgress, RecordSink, RecordedSource, RecordedSubject};
 
 use crate::queue::Policy;
 use crate::{Error, Item, Result, SourceId};

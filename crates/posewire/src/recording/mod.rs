@@ -1,0 +1,22 @@
+//! Recordings: MCAP files of every datagram as it came, and of the poses that were read from them.
+//!
+//! A [`Writer`] makes one, [`RecordSink`](crate::sink::RecordSink) makes one of a live session, [`Survey`] says what is in one and
+//! [`recover`] completes one that was cut off. The format is described in `docs/recording.md`; the constants here are its words.
+
+mod description;
+mod format;
+mod names;
+mod part;
+mod poses;
+mod records;
+mod recover;
+mod reminder;
+mod survey;
+mod writer;
+
+pub use format::{
+    END, FROM, KIND, NAME, POSES, RAW, RECORDING, REPEATED, SOURCE, SOURCE_RECORD, SUBJECT, SUBJECT_RECORD, TO, WIRE,
+};
+pub use recover::{Recovered, recover};
+pub use survey::{SenderSurvey, SourceSurvey, SubjectSurvey, Survey};
+pub use writer::{Writer, WriterOptions};

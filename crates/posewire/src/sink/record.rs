@@ -1,0 +1,369 @@
+//! Records a session.
+
+use crate::endpoint::Endpoint;
+use crate::queue::Policy;
+use crate::recording::{Writer, WriterOptions};
+use crate::stats::Statistics;
+use crate::stop::Stop;
+use crate::{Error, Item, Result, Sink, SourceId, Wants};
+use posewire_motion::{Frame, Stamp};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
+
+/// How a session is recorded.
+pub type RecordOptions = WriterOptions;
+
+/// Writes every datagram as it came and the poses that were read from them into an MCAP file, see [`recording`](crate::recording).
+///
+/// What has come is in the file at most [`FLUSH_EVERY`](Self::FLUSH_EVERY) later, where it survives the end of this program, and on
+/// the disk a second later. When nothing more can be written, as on a full disk, what was written stays readable, the session
+/// is stopped, and everything from there on is counted in [`RecordProgress::unwritten`]; [`finish`](Sink::finish) gives the error.
+///
+/// ```
+/// use posewire::sink::{RecordOptions, RecordSink};
+/// use posewire::source::PlaybackOptions;
+/// use posewire::stop::Stop;
+/// use posewire::{Session, Source};
+/// use std::time::Duration;
+///
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("take.mcap");
+/// let options = PlaybackOptions { duration: Some(Duration::from_millis(50)), ..PlaybackOptions::default() };
+/// let source = Source::open(&"synthetic:walk".parse()?, &options)?;
+/// let stop = Stop::new();
+/// let sink = RecordSink::create(&path, &[source.endpoint().clone()], RecordOptions::default(), stop.clone())?;
+/// Session::start([source], vec![Box::new(sink)], stop).wait()?;
+/// # assert!(posewire::recording::Survey::of(&path)?.complete);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct RecordSink {
+    writer: Option<Writer>,
+    failure: Option<Error>,
+    stop: Stop,
+    /// When the oldest of what is not in the file is to be there.
+    due: Option<Instant>,
+    /// Items since the last flush, which are lost if the next one fails.
+    unflushed: u64,
+    progress: RecordProgress,
+    shared: Arc<Mutex<RecordProgress>>,
+    subjects: BTreeMap<(SourceId, u32), usize>,
+    syncing: Syncing,
+}
+
+/// How far a recording has come.
+#[derive(Clone, Debug, Default)]
+pub struct RecordProgress {
+    /// The file that is written now, or was last.
+    pub file: PathBuf,
+    /// How many files there are.
+    pub files: u32,
+    /// Bytes of all files.
+    pub bytes: u64,
+    /// The sources, in the session's order.
+    pub sources: Vec<RecordedSource>,
+    /// The subjects, in the order in which they were first heard of.
+    pub subjects: Vec<RecordedSubject>,
+    /// Items that found no room in the queue, because the disk was too slow.
+    pub dropped: u64,
+    /// Datagrams and samples that could not be written.
+    pub unwritten: u64,
+    /// Why nothing more is written.
+    pub failure: Option<Error>,
+}
+
+/// What was recorded of a source.
+#[derive(Clone, Debug)]
+pub struct RecordedSource {
+    /// Where it is open.
+    pub endpoint: Endpoint,
+    /// Its datagrams.
+    pub datagrams: u64,
+    /// Their bytes.
+    pub bytes: u64,
+    /// When the last one was received.
+    pub last: Option<Stamp>,
+    /// How the source itself is doing.
+    pub statistics: Option<Arc<Statistics>>,
+}
+
+/// What was recorded of a subject.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RecordedSubject {
+    /// Its source.
+    pub source: SourceId,
+    /// Its name.
+    pub name: String,
+    /// Its samples.
+    pub frames: u64,
+}
+
+impl RecordProgress {
+    /// Everything that was lost on this machine: in the kernel, in the queue, and because it could not be written.
+    pub fn lost(&self) -> u64 {
+        let statistics = self.sources.iter().filter_map(|source| source.statistics.as_ref());
+        let kernel: u64 = statistics.map(|statistics| statistics.kernel_dropped).sum();
+        kernel + self.dropped + self.unwritten
+    }
+
+    /// Datagrams of all sources.
+    pub fn datagrams(&self) -> u64 {
+        self.sources.iter().map(|source| source.datagrams).sum()
+    }
+
+    /// Samples of all subjects.
+    pub fn frames(&self) -> u64 {
+        self.subjects.iter().map(|subject| subject.frames).sum()
+    }
+}
+
+impl RecordSink {
+    /// The longest that what has come is not in the file yet, on a machine that keeps up.
+    pub const FLUSH_EVERY: Duration = Duration::from_millis(100);
+
+    /// Creates the file. `sources` are the endpoints of the session's sources, in its order; `stop` is the session's.
+    ///
+    /// # Errors
+    /// [`Error::Exists`] when the file is there and is not to be overwritten, [`Error::Write`] when it cannot be created.
+    pub fn create(path: &Path, sources: &[Endpoint], options: RecordOptions, stop: Stop) -> Result<Self> {
+        let endpoints: Vec<_> = sources.iter().map(ToString::to_string).collect();
+        let writer = Writer::create(path, &endpoints, options)?;
+        let sources = sources.iter().map(|endpoint| RecordedSource {
+            endpoint: endpoint.clone(),
+            datagrams: 0,
+            bytes: 0,
+            last: None,
+            statistics: None,
+        });
+        let progress = RecordProgress {
+            file: path.to_owned(),
+            files: 1,
+            sources: sources.collect(),
+            ..RecordProgress::default()
+        };
+        Ok(Self {
+            syncing: Syncing::start(&writer),
+            writer: Some(writer),
+            failure: None,
+            stop,
+            due: None,
+            unflushed: 0,
+            shared: Arc::new(Mutex::new(progress.clone())),
+            progress,
+            subjects: BTreeMap::new(),
+        })
+    }
+
+    /// How far it has come, brought up to date with every flush.
+    pub fn progress(&self) -> Arc<Mutex<RecordProgress>> {
+        Arc::clone(&self.shared)
+    }
+
+    fn record(&mut self, source: SourceId, item: &Item) -> Result<()> {
+        let Some(writer) = &mut self.writer else {
+            self.progress.unwritten += u64::from(is_data(item));
+            return Ok(());
+        };
+        match item {
+            Item::Datagram(datagram) => {
+                writer.datagram(source, datagram)?;
+                if let Some(source) = self.progress.sources.get_mut(usize::from(source.0)) {
+                    source.datagrams += 1;
+                    source.bytes += datagram.bytes.len() as u64;
+                    source.last = Some(datagram.received);
+                }
+            }
+            Item::Subject(subject) => writer.subject(source, subject)?,
+            Item::Frame { frame, .. } => {
+                writer.frame(source, frame)?;
+                self.count(source, frame);
+            }
+            Item::Statistics(statistics) => {
+                if let Some(source) = self.progress.sources.get_mut(usize::from(source.0)) {
+                    source.statistics = Some(Arc::clone(statistics));
+                }
+                return Ok(());
+            }
+            Item::Notice(_) => return Ok(()),
+        }
+        self.unflushed += u64::from(is_data(item));
+        self.due.get_or_insert_with(|| Instant::now() + Self::FLUSH_EVERY);
+        Ok(())
+    }
+
+    fn count(&mut self, source: SourceId, frame: &Frame) {
+        let (subject, subjects) = (&frame.subject, &mut self.progress.subjects);
+        let place = *self.subjects.entry((source, subject.id)).or_insert(subjects.len());
+        if place == subjects.len() {
+            subjects.push(RecordedSubject {
+                source,
+                name: subject.name.clone(),
+                frames: 0,
+            });
+        }
+        if let Some(recorded) = subjects.get_mut(place) {
+            recorded.frames += 1;
+            if recorded.name != subject.name {
+                recorded.name.clone_from(&subject.name);
+            }
+        }
+    }
+
+    fn flush(&mut self) -> Result<()> {
+        self.due = None;
+        if let Some(writer) = &mut self.writer {
+            writer.flush()?;
+            self.unflushed = 0;
+            self.syncing.follow(writer);
+        }
+        self.publish();
+        Ok(())
+    }
+
+    /// Ends the recording at what was flushed.
+    fn fail(&mut self, error: Error) {
+        if let Some(mut writer) = self.writer.take() {
+            writer.abandon();
+        }
+        self.progress.unwritten += std::mem::take(&mut self.unflushed) + 1;
+        self.progress.failure = Some(error.clone());
+        self.failure = Some(error);
+        self.due = None;
+        self.publish();
+        self.stop.stop();
+    }
+
+    fn publish(&mut self) {
+        if let Some(writer) = &self.writer {
+            writer.path().clone_into(&mut self.progress.file);
+            self.progress.files = writer.files();
+            self.progress.bytes = writer.length();
+        }
+        let mut shared = lock(&self.shared);
+        shared.clone_from(&self.progress);
+    }
+}
+
+impl Sink for RecordSink {
+    fn queue(&self) -> (Policy, usize) {
+        (Policy::Lossless, QUEUED)
+    }
+
+    fn wants(&self) -> Wants {
+        Wants::ALL
+    }
+
+    fn accept(&mut self, source: SourceId, item: &Item) -> Result<()> {
+        if let Err(error) = self.record(source, item) {
+            self.fail(error);
+        }
+        Ok(())
+    }
+
+    fn dropped(&mut self, dropped: u64) {
+        self.progress.dropped = dropped;
+        self.publish();
+    }
+
+    fn timeout(&self) -> Option<Instant> {
+        self.due
+    }
+
+    fn handle_timeout(&mut self) -> Result<()> {
+        if let Err(error) = self.flush() {
+            self.fail(error);
+        }
+        Ok(())
+    }
+
+    fn finish(&mut self) -> Result<()> {
+        if let Some(mut writer) = self.writer.take() {
+            writer.path().clone_into(&mut self.progress.file);
+            self.progress.files = writer.files();
+            match writer.close(self.progress.dropped) {
+                Ok(()) => self.progress.bytes = writer.length(),
+                Err(error) => {
+                    self.writer = Some(writer);
+                    self.fail(error);
+                }
+            }
+        }
+        self.publish();
+        self.syncing.end();
+        self.failure.take().map_or(Ok(()), Err)
+    }
+}
+
+impl std::fmt::Debug for RecordSink {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("RecordSink")
+            .field("file", &self.progress.file)
+            .finish_non_exhaustive()
+    }
+}
+
+/// Whether an item is a datagram or a sample.
+fn is_data(item: &Item) -> bool {
+    matches!(item, Item::Datagram(_) | Item::Frame { .. })
+}
+
+fn lock<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A thread that sees the file onto the disk once a second, so that what is written outlives the machine, and no write waits
+/// for it.
+struct Syncing {
+    file: Arc<Mutex<Option<std::fs::File>>>,
+    path: PathBuf,
+    ending: Stop,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Syncing {
+    fn start(writer: &Writer) -> Self {
+        let file = Arc::new(Mutex::new(writer.handle()));
+        let (synced, ending) = (Arc::clone(&file), Stop::new());
+        let end = ending.clone();
+        let thread = thread::spawn(move || {
+            while !end.wait(SYNC_EVERY) {
+                let file = lock(&synced).as_ref().and_then(|file| file.try_clone().ok());
+                // What cannot be synced, as a pipe, is not on this disk; a disk that fails also fails to be written.
+                file.map(|file| file.sync_data());
+            }
+        });
+        Self {
+            file,
+            path: writer.path().to_owned(),
+            ending,
+            thread: Some(thread),
+        }
+    }
+
+    /// Goes on with the file that is written now.
+    fn follow(&mut self, writer: &Writer) {
+        if self.path != writer.path() {
+            writer.path().clone_into(&mut self.path);
+            *lock(&self.file) = writer.handle();
+        }
+    }
+
+    fn end(&mut self) {
+        self.ending.stop();
+        if let Some(thread) = self.thread.take() {
+            thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        }
+    }
+}
+
+impl Drop for Syncing {
+    fn drop(&mut self) {
+        self.ending.stop();
+    }
+}
+
+const SYNC_EVERY: Duration = Duration::from_secs(1);
+/// Seconds of everything that 16 people give at 240 Hz.
+const QUEUED: usize = 65_536;
