@@ -152,6 +152,22 @@ pub enum Error {
         /// What there is instead.
         found: String,
     },
+    /// A capture in which not one source is meant, but none or several.
+    #[error("{path}: expected one source{}, found {}", wanted.as_ref().map_or(String::new(), |wanted| format!(" {wanted:?}")), found.join(", "))]
+    CapturedSources {
+        /// The file.
+        path: PathBuf,
+        /// What was asked for.
+        wanted: Option<String>,
+        /// The sources that there are, each its number and endpoint.
+        found: Vec<String>,
+    },
+    /// A stream rate for a capture, whose datagrams come when they came.
+    #[error("expected no rate for a capture, found {found}")]
+    CaptureRate {
+        /// The rate as given.
+        found: String,
+    },
     /// A datagram that no IP packet has room for.
     #[error("expected at most 65507 bytes in a datagram, found {found}")]
     TooLongForIp {
@@ -266,6 +282,8 @@ impl Error {
             Self::Take { error, .. } => Some(take_help(error).into()),
             Self::NotACapture { .. } => Some("record one: posewire record mxtp://0.0.0.0:9763 -o take.mcap".into()),
             Self::NoDatagrams { .. } => Some("posewire explain FILE --protocol mxtp takes every datagram for MXTP".into()),
+            Self::CapturedSources { .. } => Some("choose one by number or name, as in --only 0".into()),
+            Self::CaptureRate { .. } => Some("leave --rate out; --speed plays it faster or slower".into()),
             Self::TooLongForIp { .. } => None,
             Self::NoFrames { .. } => Some("posewire inspect says what it holds; export it again from MVN".into()),
             Self::Rate { .. } => Some("leave --rate out to send every sample".into()),
@@ -323,6 +341,8 @@ impl Error {
                 | Self::NotATarget { .. }
                 | Self::Character { .. }
                 | Self::Speed { .. }
+                | Self::CapturedSources { .. }
+                | Self::CaptureRate { .. }
                 | Self::Faults { .. }
         )
     }

@@ -1,10 +1,10 @@
 //! Bytes of a capture file in order, never more of them in memory than one record.
 
-use std::io::{self, BufRead, Read};
+use std::io::{self, Read};
 
 /// A file being read, which knows how far it is.
 pub(super) struct Input {
-    from: Box<dyn BufRead + Send>,
+    from: Box<dyn Read + Send>,
     offset: u64,
 }
 
@@ -19,7 +19,7 @@ pub(super) enum Filled {
 }
 
 impl Input {
-    pub(super) fn new(from: impl BufRead + Send + 'static) -> Self {
+    pub(super) fn new(from: impl Read + Send + 'static) -> Self {
         Self {
             from: Box::new(from),
             offset: 0,
@@ -29,11 +29,6 @@ impl Input {
     /// Bytes read so far.
     pub(super) fn offset(&self) -> u64 {
         self.offset
-    }
-
-    /// The bytes that come next, as many as are at hand, at least one unless the file has ended.
-    pub(super) fn peek(&mut self) -> io::Result<&[u8]> {
-        self.from.fill_buf()
     }
 
     /// The next `N` bytes; `Err` says how many were there.

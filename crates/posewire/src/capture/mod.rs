@@ -33,23 +33,29 @@ mod origin;
 mod packet;
 mod pcap;
 mod pcapng;
+mod playlist;
 mod protocol;
+mod recording;
 mod streams;
+mod survey;
 mod unpack;
 mod write;
 
 pub use convert::{Converted, convert};
+pub(crate) use origin::is_asked;
+pub(crate) use playlist::{Playlist, Selection};
 pub use protocol::Protocol;
+pub use survey::{CapturedSource, Survey};
 pub use write::PcapWriter;
 
 use crate::{Datagram, Error, Result};
 use input::Input;
-use origin::Origins;
-use packet::{Next, Packets};
+use packet::Packets;
+use recording::Recording;
 use std::fs::File;
-use std::io::{self, BufReader};
+use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
-use unpack::Unpacker;
+use unpack::Unpacked;
 
 /// How a capture is read.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -63,6 +69,8 @@ pub struct CaptureOptions {
 pub struct Captured {
     /// Which of the [sources](Capture::sources) it is of.
     pub source: u16,
+    /// Whether it is a copy from the file before, at the beginning of a part of a split recording.
+    pub is_repeated: bool,
     /// The datagram. Over TCP, it was received when the segment was captured that completes it.
     pub datagram: Datagram,
 }
@@ -97,17 +105,21 @@ impl Counts {
 
 /// The datagrams of a capture file, in the order in which they were captured.
 ///
+/// A recording (MCAP) gives its raw datagrams, whichever sources and senders they are of, also when it was cut off.
+///
 /// A pcap or pcapng file is read packet by packet: Ethernet with VLAN tags, Linux cooked capture, loopback and bare IP; IP fragments
 /// are put together, UDP datagrams taken that are MXTP or NatNet, and TCP streams cut into MXTP datagrams. Memory is bounded
 /// whatever the file says.
 pub struct Capture {
     path: PathBuf,
-    packets: Packets,
-    packet: Vec<u8>,
-    unpacker: Unpacker,
-    origins: Origins,
+    kind: Kind,
     damage: Option<String>,
     ended: bool,
+}
+
+enum Kind {
+    Packets(Box<Unpacked>),
+    Recording(Box<Recording>),
 }
 
 impl Capture {
@@ -116,40 +128,43 @@ impl Capture {
     /// # Errors
     /// [`Error::Read`] when it cannot be read, [`Error::NotACapture`] when it is something else.
     pub fn open(path: &Path, options: &CaptureOptions) -> Result<Self> {
-        let failed = |error: &io::Error| Error::read(path, error);
-        let file = File::open(path).map_err(|error| failed(&error))?;
-        let mut input = Input::new(BufReader::with_capacity(BUFFER, file));
-        let beginning = input.peek().map_err(|error| failed(&error))?;
-        let found = beginning.iter().take(8).copied().collect();
-        match Packets::open(input).map_err(|error| failed(&error))? {
-            Some(packets) => Ok(Self::of(path, packets, options)),
-            None => Err(Error::NotACapture {
-                path: path.to_owned(),
-                found,
-            }),
-        }
-    }
-
-    fn of(path: &Path, packets: Packets, options: &CaptureOptions) -> Self {
-        Self {
+        let failed = |error: io::Error| Error::read(path, &error);
+        let mut file = BufReader::with_capacity(BUFFER, File::open(path).map_err(failed)?);
+        let found: Vec<_> = file.fill_buf().map_err(failed)?.iter().take(8).copied().collect();
+        let kind = if Recording::begins(&found) {
+            Kind::Recording(Box::new(Recording::open(file)))
+        } else if let Some(packets) = Packets::open(Input::new(file)).map_err(failed)? {
+            Kind::Packets(Box::new(Unpacked::new(packets, options.protocol)))
+        } else {
+            let path = path.to_owned();
+            return Err(Error::NotACapture { path, found });
+        };
+        Ok(Self {
             path: path.to_owned(),
-            packets,
-            packet: Vec::new(),
-            unpacker: Unpacker::new(options.protocol),
-            origins: Origins::default(),
+            kind,
             damage: None,
             ended: false,
-        }
+        })
     }
 
-    /// The sources that datagrams have come from so far, as endpoints; [`Captured::source`] is a place in here.
+    /// The sources that datagrams have come from so far, as endpoints; [`Captured::source`] is a place in here. A recording says
+    /// where it was recorded from; of other captures it is where datagrams went to, or the NatNet server.
     pub fn sources(&self) -> &[String] {
-        self.origins.names()
+        match &self.kind {
+            Kind::Packets(packets) => packets.origins.names(),
+            Kind::Recording(recording) => recording.names(),
+        }
     }
 
     /// What was read so far, and what could not be.
     pub fn counts(&self) -> Counts {
-        self.unpacker.counts()
+        match &self.kind {
+            Kind::Packets(packets) => packets.unpacker.counts(),
+            Kind::Recording(recording) => Counts {
+                packets: recording.counts().datagrams,
+                ..Counts::default()
+            },
+        }
     }
 
     /// What ended the capture before its end, if something did.
@@ -157,34 +172,21 @@ impl Capture {
         self.damage.as_deref()
     }
 
-    /// Reads packets until a datagram is ready or there are no more.
-    fn fill(&mut self) -> Result<Option<Datagram>> {
-        loop {
-            if let Some(datagram) = self.unpacker.pop() {
-                return Ok(Some(datagram));
-            }
-            if self.ended {
-                return Ok(None);
-            }
-            let next = self.packets.next(&mut self.packet);
-            match next.map_err(|error| Error::read(&self.path, &error)) {
-                Ok(Next::Packet(head)) => self.unpacker.take(head, &self.packet),
-                Ok(Next::End) => self.end(),
-                Ok(Next::Damaged(problem)) => {
-                    self.damage = Some(format!("{problem}, near byte {}", self.packets.offset()));
-                    self.end();
-                }
-                Err(error) => {
-                    self.end();
-                    return Err(error);
-                }
-            }
-        }
-    }
-
-    fn end(&mut self) {
-        self.ended = true;
-        self.unpacker.finish();
+    /// The next datagram; `None` at the end, or where nothing more can be read.
+    fn advance(&mut self) -> io::Result<Option<Captured>> {
+        let damage = match &mut self.kind {
+            Kind::Packets(packets) => match packets.next()? {
+                Ok(captured) => return Ok(captured),
+                Err(damage) => damage,
+            },
+            Kind::Recording(recording) => match recording.next()? {
+                recording::Next::Datagram(captured) => return Ok(Some(captured)),
+                recording::Next::End => return Ok(None),
+                recording::Next::Damaged(damage) => damage,
+            },
+        };
+        self.damage = Some(damage);
+        Ok(None)
     }
 }
 
@@ -192,11 +194,15 @@ impl Iterator for Capture {
     type Item = Result<Captured>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        let datagram = self.fill().transpose()?;
-        Some(datagram.map(|datagram| Captured {
-            source: self.origins.number(&datagram),
-            datagram,
-        }))
+        if self.ended {
+            return None;
+        }
+        let next = self
+            .advance()
+            .map_err(|error| Error::read(&self.path, &error))
+            .transpose();
+        self.ended = !matches!(next, Some(Ok(_)));
+        next
     }
 }
 

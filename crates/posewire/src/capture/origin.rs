@@ -62,7 +62,7 @@ impl Origin {
 }
 
 /// Whether a NatNet packet is a client's.
-pub(super) fn is_asked(packet: &[u8]) -> bool {
+pub(crate) fn is_asked(packet: &[u8]) -> bool {
     const ASKED: [MessageId; 8] = [
         MessageId::CONNECT,
         MessageId::REQUEST,

@@ -1,16 +1,71 @@
 //! From captured packets to datagrams.
 
-use super::Counts;
 use super::fragments::Fragments;
 use super::link::{self, Content, NoContent};
-use super::packet::Head;
+use super::origin::Origins;
+use super::packet::{Head, Next, Packets};
 use super::protocol::{Detector, Protocol};
 use super::streams::{Flow, Segment, Streams};
+use super::{Captured, Counts};
 use crate::{Datagram, Wire};
 use etherparse::{TcpSlice, UdpSlice};
 use posewire_motion::Stamp;
 use std::collections::VecDeque;
+use std::io;
 use std::net::SocketAddr;
+
+/// The datagrams of a file of packets.
+pub(super) struct Unpacked {
+    packets: Packets,
+    packet: Vec<u8>,
+    ended: bool,
+    damage: Option<String>,
+    pub(super) unpacker: Unpacker,
+    pub(super) origins: Origins,
+}
+
+impl Unpacked {
+    pub(super) fn new(packets: Packets, forced: Option<Protocol>) -> Self {
+        Self {
+            packets,
+            packet: Vec::new(),
+            ended: false,
+            damage: None,
+            unpacker: Unpacker::new(forced),
+            origins: Origins::default(),
+        }
+    }
+
+    /// The next datagram, `None` at the end; `Err` says what ended the file before its end, once all else has been given.
+    pub(super) fn next(&mut self) -> io::Result<Result<Option<Captured>, String>> {
+        loop {
+            if let Some(datagram) = self.unpacker.pop() {
+                let source = self.origins.number(&datagram);
+                return Ok(Ok(Some(Captured {
+                    source,
+                    is_repeated: false,
+                    datagram,
+                })));
+            }
+            if self.ended {
+                return Ok(self.damage.take().map_or(Ok(None), Err));
+            }
+            match self.packets.next(&mut self.packet)? {
+                Next::Packet(head) => self.unpacker.take(head, &self.packet),
+                Next::End => self.end(),
+                Next::Damaged(problem) => {
+                    self.damage = Some(format!("{problem}, near byte {}", self.packets.offset()));
+                    self.end();
+                }
+            }
+        }
+    }
+
+    fn end(&mut self) {
+        self.ended = true;
+        self.unpacker.finish();
+    }
+}
 
 /// Takes packets, gives datagrams.
 #[derive(Debug)]

@@ -1,19 +1,23 @@
 //! Where frames come from.
 
+mod capture;
 mod file;
 mod mxtp;
 mod natnet;
 mod playback;
 mod report;
 pub mod synthetic;
+mod timeline;
 mod walk;
 
 pub use playback::{PlaybackOptions, Preview};
 
 use crate::Result;
+use crate::capture::CapturedSource;
 use crate::endpoint::Endpoint;
 use crate::session::Outlet;
 use crate::stop::Stop;
+use capture::CapturePlayback;
 use mxtp::{MxtpTcp, MxtpUdp};
 use natnet::NatNet;
 use playback::Playback;
@@ -32,6 +36,7 @@ enum Kind {
     MxtpTcp(MxtpTcp),
     NatNet(Box<NatNet>),
     Playback(Playback),
+    Capture(Box<CapturePlayback>),
 }
 
 impl Source {
@@ -46,13 +51,16 @@ impl Source {
             Endpoint::MxtpTcp(address) => Kind::MxtpTcp(MxtpTcp::open(address)?),
             Endpoint::NatNet(address) => Kind::NatNet(Box::new(NatNet::open(address)?)),
             Endpoint::Synthetic(walk) => Kind::Playback(Playback::of_walk(walk, options)?),
+            Endpoint::File { path, format } if format.is_capture() => {
+                Kind::Capture(Box::new(CapturePlayback::open(path, options)?))
+            }
             Endpoint::File { path, .. } => Kind::Playback(Playback::of_file(path, options)?),
         };
         let endpoint = match &kind {
             Kind::MxtpUdp(source) => source.endpoint(),
             Kind::MxtpTcp(source) => source.endpoint(),
             Kind::NatNet(source) => source.endpoint(),
-            Kind::Playback(_) => endpoint.clone(),
+            Kind::Playback(_) | Kind::Capture(_) => endpoint.clone(),
         };
         Ok(Self { endpoint, kind })
     }
@@ -64,7 +72,15 @@ impl Source {
 
     /// Whether it comes at its own time and cannot be made to wait.
     pub fn is_live(&self) -> bool {
-        !matches!(self.kind, Kind::Playback(_))
+        !matches!(self.kind, Kind::Playback(_) | Kind::Capture(_))
+    }
+
+    /// Which source of a capture it plays.
+    pub fn captured(&self) -> Option<&CapturedSource> {
+        match &self.kind {
+            Kind::Capture(capture) => Some(capture.source()),
+            _ => None,
+        }
     }
 
     /// The samples a second and the subjects, where they are known beforehand.
@@ -84,6 +100,7 @@ impl Source {
             }
             Kind::NatNet(source) => source.run(outlet, stop),
             Kind::Playback(playback) => playback.run(outlet, stop),
+            Kind::Capture(capture) => capture.run(outlet, stop),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::file::TakeFile;
 use super::walk::Walkers;
+use crate::capture::{Protocol, Selection};
 use crate::endpoint;
 use crate::pacer::Pacer;
 use crate::session::Outlet;
@@ -24,8 +25,16 @@ pub struct PlaybackOptions {
     pub looped: bool,
     /// Ends after this long by the clock on the wall.
     pub duration: Option<Duration>,
-    /// Whether a damaged file is used up to the damage.
+    /// Whether a damaged file is used up to the damage; a capture always is.
     pub salvage: bool,
+    /// Of a capture: which source, by its number or a part of its name. It may be left out where there is one.
+    pub only: Option<String>,
+    /// Of a capture: begin so long after its first datagram.
+    pub from: Duration,
+    /// Of a capture: end so long after its first datagram.
+    pub until: Option<Duration>,
+    /// Of a capture of packets: what the UDP datagrams are; told by their content if absent.
+    pub protocol: Option<Protocol>,
 }
 
 impl Default for PlaybackOptions {
@@ -37,6 +46,22 @@ impl Default for PlaybackOptions {
             looped: false,
             duration: None,
             salvage: false,
+            only: None,
+            from: Duration::ZERO,
+            until: None,
+            protocol: None,
+        }
+    }
+}
+
+impl PlaybackOptions {
+    /// What of a capture is played, of all its sources.
+    pub(crate) fn selection(&self) -> Selection {
+        Selection {
+            source: None,
+            from: self.from,
+            until: self.until,
+            looped: self.looped,
         }
     }
 }

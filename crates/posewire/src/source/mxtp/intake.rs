@@ -1,46 +1,60 @@
 //! From datagrams to items, for UDP and TCP alike.
 
-use crate::clock::Clock;
 use crate::session::Outlet;
 use crate::source::report::Reports;
+use crate::source::timeline::Timeline;
 use crate::stats::{Edge, Tally};
 use crate::{Datagram, Item, Notice, Wire};
 use posewire_motion::Stamp;
 use posewire_mxtp::{Assembler, Event};
 use std::net::SocketAddr;
 use std::sync::Arc;
+use std::time::Instant;
 
 /// Which way a datagram has come.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Way {
-    pub(super) wire: Wire,
-    pub(super) from: SocketAddr,
-    pub(super) to: SocketAddr,
+pub(in crate::source) struct Way {
+    pub(in crate::source) wire: Wire,
+    pub(in crate::source) from: SocketAddr,
+    pub(in crate::source) to: SocketAddr,
 }
 
 /// Assembles what arrives, counts it, and hands it on.
-pub(super) struct Intake<'a> {
+pub(in crate::source) struct Intake<'a> {
     assembler: Assembler,
     tally: Tally,
-    clock: Clock,
+    time: Timeline,
+    /// When what is taken now was to leave, if it is played.
+    due: Option<Instant>,
     reports: Reports,
     outlet: &'a mut Outlet,
 }
 
 impl<'a> Intake<'a> {
     pub(super) fn new(outlet: &'a mut Outlet) -> Self {
-        let clock = Clock::new();
+        Self::at(Timeline::live(), outlet)
+    }
+
+    /// Goes by this time.
+    pub(in crate::source) fn at(time: Timeline, outlet: &'a mut Outlet) -> Self {
         Self {
             assembler: Assembler::new(),
-            tally: Tally::new(clock.now()),
+            tally: Tally::new(time.now()),
             reports: Reports::new(),
-            clock,
+            time,
+            due: None,
             outlet,
         }
     }
 
+    /// Goes on to a time of a capture; what is taken then was to leave when it is `due`.
+    pub(in crate::source) fn go_on(&mut self, to: Stamp, due: Option<Instant>) {
+        self.time.go_on(to);
+        self.due = due;
+    }
+
     /// Takes one datagram as it arrived.
-    pub(super) fn datagram(&mut self, way: Way, at: Stamp, bytes: &[u8]) {
+    pub(in crate::source) fn datagram(&mut self, way: Way, at: Stamp, bytes: &[u8]) {
         self.outlet.push_datagram(|| Datagram {
             wire: way.wire,
             from: way.from,
@@ -54,14 +68,14 @@ impl<'a> Intake<'a> {
     }
 
     /// Tells the sinks something about the connection.
-    pub(super) fn notice(&mut self, notice: Notice) {
+    pub(in crate::source) fn notice(&mut self, notice: Notice) {
         self.outlet.push(Item::Notice(notice));
     }
 
     /// To be called after each batch and at least every [`TICK`](crate::source::report::TICK): closes what waited too long, reports once a second
     /// and hands everything to the sinks. `false` when no sink is left.
-    pub(super) fn tick(&mut self, kernel_dropped: u64, skipped_bytes: u64) -> bool {
-        let now = self.clock.now();
+    pub(in crate::source) fn tick(&mut self, kernel_dropped: u64, skipped_bytes: u64) -> bool {
+        let now = self.time.now();
         if self.assembler.timeout().is_some_and(|due| due <= now) {
             self.assembler.handle_timeout(now);
             self.forward(now);
@@ -80,8 +94,8 @@ impl<'a> Intake<'a> {
     }
 
     /// The end of the stream: closes what is open and gives the last numbers.
-    pub(super) fn finish(mut self, kernel_dropped: u64, skipped_bytes: u64) {
-        let now = self.clock.now();
+    pub(in crate::source) fn finish(mut self, kernel_dropped: u64, skipped_bytes: u64) {
+        let now = self.time.now();
         self.assembler.finish();
         self.forward(now);
         self.report(
@@ -109,7 +123,7 @@ impl<'a> Intake<'a> {
                 }
                 Event::Frame(frame) => {
                     self.tally.timecode(&frame.subject, frame.timecode);
-                    self.outlet.push(Item::Frame { frame, due: None });
+                    self.outlet.push(Item::Frame { frame, due: self.due });
                 }
                 Event::Message {
                     character,

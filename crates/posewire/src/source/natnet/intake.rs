@@ -16,25 +16,27 @@ use super::naming::{Arrived, Naming};
 use super::senders::Senders;
 use super::silence::{REMARK_AFTER, Silence};
 use super::sockets::{Port, Sockets};
-use crate::clock::Clock;
 use crate::endpoint::NatNetAddress;
 use crate::net::Received;
 use crate::session::Outlet;
 use crate::source::report::Reports;
+use crate::source::timeline::Timeline;
 use crate::stats::{Link, NatNetTally};
 use crate::{Datagram, Error, Item, Notice};
 
 /// Drives the client, counts what it tells, and hands it on.
-pub(super) struct Intake<'a> {
+pub(in crate::source) struct Intake<'a> {
     /// What is to be sent from the command socket.
-    pub(super) outbox: Vec<Transmit>,
+    pub(in crate::source) outbox: Vec<Transmit>,
     address: NatNetAddress,
     client: Client,
     naming: Naming,
     tally: NatNetTally,
     senders: Senders,
     server: SocketAddr,
-    clock: Clock,
+    time: Timeline,
+    /// When what is taken now was to leave, if it is played.
+    due: Option<Instant>,
     /// The latest time that the client was told; what it is told must not go back.
     told: Stamp,
     /// How the server was last called.
@@ -49,10 +51,22 @@ pub(super) struct Intake<'a> {
 
 impl<'a> Intake<'a> {
     pub(super) fn new(outlet: &'a mut Outlet, address: NatNetAddress, server: SocketAddr) -> Self {
-        let clock = Clock::new();
-        let told = clock.steady();
+        Self::at(Timeline::live(), outlet, address, server)
+    }
+
+    /// Goes by this time. What is played loses no connection, however long nothing comes.
+    pub(in crate::source) fn at(
+        time: Timeline,
+        outlet: &'a mut Outlet,
+        address: NatNetAddress,
+        server: SocketAddr,
+    ) -> Self {
+        let told = time.steady();
         let mut options = ClientOptions::new(server, address.mode);
         options.version = address.version;
+        if !time.is_live() {
+            options.lost_after = Duration::MAX;
+        }
         // Which of the addresses that send to a group is the server's is for `Senders` to say.
         options.data_source = match address.mode {
             Mode::Unicast => DataSource::Server,
@@ -67,10 +81,11 @@ impl<'a> Intake<'a> {
             outbox: Vec::new(),
             client: Client::new(told, options),
             naming: Naming::new(settings),
-            tally: NatNetTally::new(clock.now()),
+            tally: NatNetTally::new(time.now()),
             senders: Senders::new(address.mode, server.ip()),
             server,
-            clock,
+            time,
+            due: None,
             told,
             peer: server.to_string(),
             silence: Silence::default(),
@@ -81,12 +96,24 @@ impl<'a> Intake<'a> {
             outlet,
             address,
         };
-        intake.settle(clock.now());
+        intake.settle(time.now());
         intake
     }
 
+    /// Goes on to a time of a capture; what is taken then was to leave when it is `due`.
+    pub(in crate::source) fn go_on(&mut self, to: Stamp, due: Option<Instant>) {
+        self.time.go_on(to);
+        self.due = due;
+    }
+
+    /// Nothing more is to be known of the subjects: no frame waits for it.
+    pub(in crate::source) fn know_all(&mut self) {
+        self.naming.note_model();
+        self.naming.note_rate();
+    }
+
     /// Takes one datagram as it arrived; whether it was a frame.
-    pub(super) fn datagram(&mut self, port: Port, received: Received<'_>) -> bool {
+    pub(in crate::source) fn datagram(&mut self, port: Port, received: Received<'_>) -> bool {
         self.outlet.push_datagram(|| Datagram {
             wire: port.wire,
             from: received.from,
@@ -107,19 +134,21 @@ impl<'a> Intake<'a> {
     }
 
     /// Tells the sinks something about the connection.
-    pub(super) fn notice(&mut self, notice: Notice) {
+    pub(in crate::source) fn notice(&mut self, notice: Notice) {
         self.outlet.push(Item::Notice(notice));
     }
 
     /// To be called after each batch: does what is due and hands everything to the sinks. `false` when no sink is left.
-    pub(super) fn tick(&mut self, sockets: &Sockets) -> bool {
+    pub(in crate::source) fn tick(&mut self, sockets: Option<&Sockets>) -> bool {
         let now = self.now();
         if self.client.timeout().is_some_and(|due| due <= now) {
             self.client.handle_timeout(now);
-            self.settle(self.clock.now());
+            self.settle(self.time.now());
         }
         self.release(false);
-        self.remark_on_silence(sockets);
+        if let Some(sockets) = sockets {
+            self.remark_on_silence(sockets);
+        }
         self.remark_on_unread_frames();
         self.look_for_left_out();
         if self.reports.is_due() {
@@ -149,11 +178,11 @@ impl<'a> Intake<'a> {
     /// Says goodbye to the server.
     pub(super) fn disconnect(&mut self) {
         self.client.disconnect();
-        self.settle(self.clock.now());
+        self.settle(self.time.now());
     }
 
     /// The end of the stream: gives what has waited and the last numbers.
-    pub(super) fn finish(mut self, sockets: &Sockets) {
+    pub(in crate::source) fn finish(mut self, sockets: Option<&Sockets>) {
         self.release(true);
         self.report(sockets, true);
         self.outlet.finish();
@@ -280,7 +309,7 @@ impl<'a> Intake<'a> {
             self.tally.sample(&sample);
             sample.received = Some(*at);
             let frame = Arc::new(sample);
-            self.outlet.push(Item::Frame { frame, due: None });
+            self.outlet.push(Item::Frame { frame, due: self.due });
         }
         self.naming.reuse(samples);
     }
@@ -293,7 +322,7 @@ impl<'a> Intake<'a> {
             self.notice(Notice::Remark { text });
             let now = self.now();
             self.client.request_model(now);
-            self.settle(self.clock.now());
+            self.settle(self.time.now());
         }
         self.left_out = left_out;
     }
@@ -316,14 +345,14 @@ impl<'a> Intake<'a> {
         }
     }
 
-    fn report(&mut self, sockets: &Sockets, ended: bool) {
+    fn report(&mut self, sockets: Option<&Sockets>, ended: bool) {
         let link = Link {
             server: self.server,
             mode: self.address.mode,
-            group: sockets.joined().map(|(group, _)| group),
-            interface: Some(sockets.local().to_string()),
-            kernel_dropped: sockets.kernel_dropped(),
-            now: self.clock.now(),
+            group: sockets.and_then(Sockets::joined).map(|(group, _)| group),
+            interface: sockets.map(|sockets| sockets.local().to_string()),
+            kernel_dropped: sockets.map_or(0, Sockets::kernel_dropped),
+            now: self.time.now(),
             steady: self.now(),
         };
         let left_out = self.naming.subjects.left_out();
@@ -332,15 +361,15 @@ impl<'a> Intake<'a> {
     }
 
     fn now(&mut self) -> Stamp {
-        self.told = self.told.max(self.clock.steady());
+        self.told = self.told.max(self.time.steady());
         self.told
     }
 
     /// When something that the kernel stamped arrived, on the steady clock.
     fn arrival(&mut self, stamp: Stamp) -> Stamp {
-        let waited = self.clock.now().since(stamp).min(LONGEST_WAIT);
+        let waited = self.time.now().since(stamp).min(LONGEST_WAIT);
         let waited = i64::try_from(waited.as_nanos()).unwrap_or_default();
-        let arrival = Stamp(self.clock.steady().nanoseconds() - waited);
+        let arrival = Stamp(self.time.steady().nanoseconds() - waited);
         self.told = self.told.max(arrival);
         self.told
     }

@@ -12,7 +12,8 @@ use std::net::{IpAddr, SocketAddr};
 use std::time::{Duration, Instant};
 
 use self::find::find;
-use self::intake::Intake;
+pub(super) use self::intake::Intake;
+pub(super) use self::sockets::Port;
 use self::sockets::Sockets;
 use super::report::{DRAIN_LIMIT, TICK};
 use crate::endpoint::{Endpoint, NatNetAddress};
@@ -112,7 +113,7 @@ impl Running<'_> {
     /// Takes what comes within `timeout` and does what is due. `false` when no sink is left.
     fn tick(&mut self, timeout: Duration) -> Result<bool> {
         self.receive(timeout)?;
-        let goes_on = self.intake.tick(&self.sockets);
+        let goes_on = self.intake.tick(Some(&self.sockets));
         self.send();
         self.listen_elsewhere();
         Ok(goes_on)
@@ -152,7 +153,7 @@ impl Running<'_> {
     fn finish(mut self) {
         self.intake.disconnect();
         self.send();
-        self.intake.finish(&self.sockets);
+        self.intake.finish(Some(&self.sockets));
     }
 }
 

@@ -14,7 +14,7 @@ use crate::{Error, Result, Wire};
 /// Only one of them can be waited for: the one that frames come to. The other is looked at each time, and loses nothing by
 /// that, as the kernel stamps what arrives.
 #[derive(Debug)]
-pub(super) struct Sockets {
+pub(in crate::source) struct Sockets {
     command: UdpReceiver,
     data: Option<UdpReceiver>,
     waits_for_data: bool,
@@ -28,9 +28,9 @@ pub(super) struct Sockets {
 
 /// Which of the sockets a datagram arrived at.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Port {
-    pub(super) wire: Wire,
-    pub(super) local: SocketAddr,
+pub(in crate::source) struct Port {
+    pub(in crate::source) wire: Wire,
+    pub(in crate::source) local: SocketAddr,
 }
 
 impl Port {

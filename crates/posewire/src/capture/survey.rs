@@ -1,0 +1,131 @@
+//! What a capture holds, from reading it once.
+
+use super::{Capture, CaptureOptions, Captured, Counts, Protocol};
+use crate::{Error, Result, Wire};
+use posewire_motion::Stamp;
+use std::path::Path;
+
+/// What a capture holds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Survey {
+    /// Its sources, by number. Some may be without a datagram.
+    pub sources: Vec<CapturedSource>,
+    /// What was read, and what could not be.
+    pub counts: Counts,
+    /// What ended the capture before its end, if something did.
+    pub damage: Option<String>,
+}
+
+/// A source of a capture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CapturedSource {
+    /// Its number, which [`Captured::source`] gives.
+    pub number: u16,
+    /// Its endpoint.
+    pub name: String,
+    /// The protocol of its first datagram; `None` if it has none.
+    pub protocol: Option<Protocol>,
+    /// How many datagrams, without copies from a file before.
+    pub datagrams: u64,
+    /// Their payloads together.
+    pub bytes: u64,
+    /// When the first and the last of them came.
+    pub span: Option<(Stamp, Stamp)>,
+}
+
+impl Survey {
+    /// Reads a capture to its end.
+    ///
+    /// # Errors
+    /// Those of [`Capture::open`], [`Error::Read`] when reading fails later, [`Error::NoDatagrams`] when there is none.
+    pub fn of(path: &Path, options: &CaptureOptions) -> Result<Self> {
+        let mut capture = Capture::open(path, options)?;
+        let mut sources = Vec::new();
+        for captured in capture.by_ref() {
+            note(&mut sources, &captured?);
+        }
+        let counts = capture.counts();
+        if sources.iter().all(|source| source.datagrams == 0) {
+            return Err(Error::NoDatagrams {
+                path: path.to_owned(),
+                found: nothing(&counts),
+            });
+        }
+        for (source, name) in sources.iter_mut().zip(capture.sources()) {
+            source.name.clone_from(name);
+        }
+        Ok(Self {
+            sources,
+            counts,
+            damage: capture.damage().map(str::to_owned),
+        })
+    }
+
+    /// The source that is meant: by its number, or by a part of its name that no other has. The only one if none is named.
+    ///
+    /// # Errors
+    /// [`Error::CapturedSources`] when none or several are meant.
+    pub fn choose(&self, path: &Path, wanted: Option<&str>) -> Result<&CapturedSource> {
+        let there = || self.sources.iter().filter(|source| source.datagrams > 0);
+        let number = wanted.and_then(|wanted| wanted.parse().ok());
+        let is_meant = |source: &&CapturedSource| match (number, wanted) {
+            (Some(number), _) => source.number == number,
+            (None, Some(wanted)) => source.name.contains(wanted),
+            (None, None) => true,
+        };
+        let mut meant = there().filter(is_meant);
+        match (meant.next(), meant.next()) {
+            (Some(source), None) => Ok(source),
+            _ => Err(Error::CapturedSources {
+                path: path.to_owned(),
+                wanted: wanted.map(str::to_owned),
+                found: there()
+                    .map(|source| format!("{} {}", source.number, source.name))
+                    .collect(),
+            }),
+        }
+    }
+}
+
+fn note(sources: &mut Vec<CapturedSource>, captured: &Captured) {
+    for number in sources.len()..=usize::from(captured.source) {
+        sources.push(CapturedSource {
+            number: number as u16,
+            name: String::new(),
+            protocol: None,
+            datagrams: 0,
+            bytes: 0,
+            span: None,
+        });
+    }
+    let Some(source) = sources.get_mut(usize::from(captured.source)) else {
+        return;
+    };
+    source.protocol.get_or_insert(Protocol::of(captured.datagram.wire));
+    if captured.is_repeated {
+        return;
+    }
+    source.datagrams += 1;
+    source.bytes += captured.datagram.bytes.len() as u64;
+    let at = captured.datagram.received;
+    let (first, last) = source.span.unwrap_or((at, at));
+    source.span = Some((first.min(at), last.max(at)));
+}
+
+fn nothing(counts: &Counts) -> String {
+    match counts.packets {
+        0 => "no packet".to_owned(),
+        1 => "one packet of something else".to_owned(),
+        packets => format!("{packets} packets of something else"),
+    }
+}
+
+impl Protocol {
+    /// The protocol of what came over a wire.
+    pub const fn of(wire: Wire) -> Self {
+        match wire {
+            Wire::MxtpUdp | Wire::MxtpTcp => Self::Mxtp,
+            Wire::NatNetCommand | Wire::NatNetData => Self::NatNet,
+        }
+    }
+}

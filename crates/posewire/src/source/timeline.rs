@@ -1,0 +1,44 @@
+//! The time that a source goes by.
+
+use crate::clock::Clock;
+use posewire_motion::Stamp;
+
+/// The time that a source goes by: that of the system, or for a capture that is played, when its datagrams came.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Timeline {
+    Live(Clock),
+    Played(Stamp),
+}
+
+impl Timeline {
+    pub(super) fn live() -> Self {
+        Self::Live(Clock::new())
+    }
+
+    /// UTC.
+    pub(super) fn now(&self) -> Stamp {
+        match self {
+            Self::Live(clock) => clock.now(),
+            Self::Played(at) => *at,
+        }
+    }
+
+    /// A time that never goes back.
+    pub(super) fn steady(&self) -> Stamp {
+        match self {
+            Self::Live(clock) => clock.steady(),
+            Self::Played(at) => *at,
+        }
+    }
+
+    /// Goes on to a time of a capture. What is live goes on by itself.
+    pub(super) fn go_on(&mut self, to: Stamp) {
+        if let Self::Played(at) = self {
+            *at = to.max(*at);
+        }
+    }
+
+    pub(super) const fn is_live(&self) -> bool {
+        matches!(self, Self::Live(_))
+    }
+}
