@@ -42,6 +42,7 @@ pub mod net;
 pub mod pacer;
 pub mod queue;
 pub mod recording;
+pub mod replay;
 mod session;
 pub mod sink;
 pub mod source;

@@ -73,6 +73,11 @@ impl Pacer {
         true
     }
 
+    /// Whether a wait would end early.
+    pub fn is_stopped(&self) -> bool {
+        self.stop.is_stopped()
+    }
+
     /// How late the waits ended.
     pub fn lateness(&self) -> Summary {
         self.lateness.summary()

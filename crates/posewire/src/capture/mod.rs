@@ -29,6 +29,7 @@ mod convert;
 mod fragments;
 mod input;
 mod link;
+mod opening;
 mod origin;
 mod packet;
 mod pcap;
@@ -42,6 +43,7 @@ mod unpack;
 mod write;
 
 pub use convert::{Converted, convert};
+pub(crate) use opening::Opening;
 pub(crate) use origin::is_asked;
 pub(crate) use playlist::{Playlist, Selection};
 pub use protocol::Protocol;

@@ -110,7 +110,7 @@ impl Playlist {
         }
         let due = (self.round + at.since(*self.first.get_or_insert(at))).max(self.due);
         if let Some(gap) = self.gaps.get_mut(self.played % LOOKED_BACK) {
-            *gap = due - self.due;
+            *gap = due.saturating_sub(self.due);
         }
         self.played += 1;
         self.due = due;

@@ -66,23 +66,41 @@ impl Survey {
     /// # Errors
     /// [`Error::CapturedSources`] when none or several are meant.
     pub fn choose(&self, path: &Path, wanted: Option<&str>) -> Result<&CapturedSource> {
-        let there = || self.sources.iter().filter(|source| source.datagrams > 0);
-        let number = wanted.and_then(|wanted| wanted.parse().ok());
+        let there = self.sources.iter().filter(|source| source.datagrams > 0);
+        let number: Option<u16> = wanted.and_then(|wanted| wanted.parse().ok());
         let is_meant = |source: &&CapturedSource| match (number, wanted) {
             (Some(number), _) => source.number == number,
             (None, Some(wanted)) => source.name.contains(wanted),
             (None, None) => true,
         };
-        let mut meant = there().filter(is_meant);
+        let mut meant = there.filter(is_meant);
         match (meant.next(), meant.next()) {
             (Some(source), None) => Ok(source),
-            _ => Err(Error::CapturedSources {
-                path: path.to_owned(),
-                wanted: wanted.map(str::to_owned),
-                found: there()
-                    .map(|source| format!("{} {}", source.number, source.name))
-                    .collect(),
-            }),
+            _ => Err(self.not_one(path, wanted)),
+        }
+    }
+
+    /// The NatNet source that is meant, if only one can be.
+    pub(crate) fn natnet(&self, path: &Path, chosen: Option<u16>) -> Result<&CapturedSource> {
+        let is_meant = |source: &&CapturedSource| {
+            let is_chosen = chosen.is_none_or(|chosen| chosen == source.number);
+            is_chosen && source.datagrams > 0 && source.protocol == Some(Protocol::NatNet)
+        };
+        let mut meant = self.sources.iter().filter(is_meant);
+        match (meant.next(), meant.next()) {
+            (Some(source), None) => Ok(source),
+            _ => Err(self.not_one(path, Some("natnet"))),
+        }
+    }
+
+    fn not_one(&self, path: &Path, wanted: Option<&str>) -> Error {
+        let there = self.sources.iter().filter(|source| source.datagrams > 0);
+        Error::CapturedSources {
+            path: path.to_owned(),
+            wanted: wanted.map(str::to_owned),
+            found: there
+                .map(|source| format!("{} {}", source.number, source.name))
+                .collect(),
         }
     }
 }

@@ -56,9 +56,4 @@ fn unknown(path: &str, ending: &str) -> Error {
 }
 
 const KNOWN: &[&str] = &[".mvnx", ".mvnx.gz", ".mcap", ".pcap", ".pcapng"];
-const PLANNED: &[(&str, &str)] = &[
-    ("bvh", "BVH"),
-    ("c3d", "C3D"),
-    ("trc", "TRC"),
-    ("csv", "CSV"),
-];
+const PLANNED: &[(&str, &str)] = &[("bvh", "BVH"), ("c3d", "C3D"), ("trc", "TRC"), ("csv", "CSV")];

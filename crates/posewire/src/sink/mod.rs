@@ -5,7 +5,9 @@ mod natnet;
 mod progress;
 mod record;
 
+pub(crate) use mxtp::Target as MxtpTarget;
 pub use mxtp::{MxtpSink, MxtpSinkOptions};
+pub(crate) use natnet::Ports as NatNetPorts;
 pub use natnet::{NatNetSink, NatNetSinkOptions};
 pub use progress::{ClientProgress, ClientState, LeftOut, Progress, TargetProgress};
 pub use record::{RecordOptions, RecordProgress, RecordSink, RecordedSource, RecordedSubject};

@@ -18,7 +18,7 @@ use posewire_mxtp::motion::{Datagrams, Encoder, EncoderOptions, MessageTypes};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
-use target::Target;
+pub(crate) use target::Target;
 
 /// What is sent, and how.
 #[derive(Clone, Debug, PartialEq)]

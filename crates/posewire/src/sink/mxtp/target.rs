@@ -8,13 +8,13 @@ use crate::{Error, Result};
 use posewire_mxtp::motion::Datagrams;
 
 /// One target of a stream.
-pub(super) enum Target {
+pub(crate) enum Target {
     Udp { endpoint: String, sender: UdpSender },
     Tcp { endpoint: String, target: TcpTarget },
 }
 
 impl Target {
-    pub(super) fn open(endpoint: &Endpoint) -> Result<Self> {
+    pub(crate) fn open(endpoint: &Endpoint) -> Result<Self> {
         match endpoint {
             Endpoint::MxtpUdp(address) => Ok(Self::Udp {
                 endpoint: endpoint.to_string(),
@@ -37,7 +37,7 @@ impl Target {
     }
 
     /// Whether somebody is there to be sent to, as far as can be known.
-    pub(super) fn is_ready(&self) -> bool {
+    pub(crate) fn is_ready(&self) -> bool {
         match self {
             Self::Udp { .. } => true,
             Self::Tcp { target, .. } => target.peers() > 0,
@@ -48,7 +48,7 @@ impl Target {
     ///
     /// # Errors
     /// [`Error::Socket`] when the very first datagram cannot be sent: the target cannot be reached at all.
-    pub(super) fn send(&mut self, datagrams: &Datagrams) -> Result<()> {
+    pub(crate) fn send(&mut self, datagrams: &Datagrams) -> Result<()> {
         match self {
             Self::Udp { sender, .. } => {
                 for datagram in datagrams.iter() {
@@ -63,13 +63,13 @@ impl Target {
         Ok(())
     }
 
-    pub(super) fn finish(&mut self) {
+    pub(crate) fn finish(&mut self) {
         if let Self::Tcp { target, .. } = self {
             target.finish();
         }
     }
 
-    pub(super) fn progress(&self) -> TargetProgress {
+    pub(crate) fn progress(&self) -> TargetProgress {
         match self {
             Self::Udp { endpoint, sender } => {
                 let counts = sender.counts();

@@ -12,7 +12,7 @@ use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 /// The peers behind one TCP endpoint: the one that we connect to, or all that connect to us.
-pub(super) struct TcpTarget {
+pub(crate) struct TcpTarget {
     peers: Arc<Peers>,
     connecting: Option<JoinHandle<()>>,
     /// The port that we listen on, if we do.

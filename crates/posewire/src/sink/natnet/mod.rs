@@ -13,7 +13,7 @@ use crate::faults::FaultPlan;
 use crate::stop::Stop;
 use crate::{Item, Result, SourceId};
 use gathering::Share;
-use ports::Ports;
+pub(crate) use ports::Ports;
 use posewire_motion::{Frame, Subject};
 use serving::Serving;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

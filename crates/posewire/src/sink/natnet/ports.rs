@@ -6,18 +6,19 @@ use crate::error::Error;
 use crate::net::{Sent, ServedPort};
 use posewire_natnet::client::Mode;
 use posewire_natnet::{Socket, Transmit};
+use std::net::SocketAddr;
 
 /// The two sockets of a server: one that answers commands, one that frames leave from.
 #[derive(Debug)]
-pub(super) struct Ports {
-    pub(super) command: ServedPort,
+pub(crate) struct Ports {
+    pub(crate) command: ServedPort,
     data: ServedPort,
     /// The port that clients are told.
-    pub(super) data_port: u16,
+    pub(crate) data_port: u16,
 }
 
 impl Ports {
-    pub(super) fn open(address: &NatNetAddress) -> Result<Self> {
+    pub(crate) fn open(address: &NatNetAddress) -> Result<Self> {
         let multicast = address.mode == Mode::Multicast;
         let command = ServedPort::bind(&address.host, address.port, false, Error::SERVE_COMMANDS)?;
         // Clients on this machine bind the data port as well, to receive from the group.
@@ -47,8 +48,13 @@ impl Ports {
         })
     }
 
+    /// Sends a frame that is there as bytes. Never waits.
+    pub(crate) fn send_frame(&self, bytes: &[u8], to: SocketAddr) -> Sent {
+        self.data.send(bytes, to)
+    }
+
     /// Sends a packet. Never waits for a frame, and next to nothing for an answer.
-    pub(super) fn send(&self, transmit: &Transmit) -> Sent {
+    pub(crate) fn send(&self, transmit: &Transmit) -> Sent {
         match transmit.socket {
             Socket::Command => self.command.send(&transmit.bytes, transmit.to),
             Socket::Data => self.data.send(&transmit.bytes, transmit.to),

@@ -1,7 +1,6 @@
 //! What reads the datagrams of a capture: the same as reads live ones.
 
-use super::Opening;
-use crate::capture::is_asked;
+use crate::capture::{Opening, is_asked};
 use crate::net::Received;
 use crate::session::Outlet;
 use crate::source::timeline::Timeline;

@@ -1,13 +1,11 @@
 //! A capture, read as if its datagrams arrived now.
 
 mod decoder;
-mod opening;
 
 use self::decoder::Decoder;
-use self::opening::Opening;
 use super::playback::PlaybackOptions;
 use super::report::TICK;
-use crate::capture::{CaptureOptions, CapturedSource, Playlist, Protocol, Selection, Survey};
+use crate::capture::{CaptureOptions, CapturedSource, Opening, Playlist, Protocol, Selection, Survey};
 use crate::pacer::Pacer;
 use crate::session::Outlet;
 use crate::stop::Stop;

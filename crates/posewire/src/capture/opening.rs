@@ -1,6 +1,6 @@
 //! What a NatNet server says of itself before its frames can be read, wherever in the capture it says it.
 
-use crate::capture::{Capture, CaptureOptions, CapturedSource, is_asked};
+use super::{Capture, CaptureOptions, CapturedSource, is_asked};
 use crate::endpoint::{Endpoint, Host, NatNetAddress};
 use crate::{Datagram, Result};
 use posewire_natnet::client::Mode;
@@ -12,11 +12,11 @@ use std::path::Path;
 
 /// What a NatNet server said of itself.
 #[derive(Debug)]
-pub(super) struct Opening {
-    pub(super) address: NatNetAddress,
-    pub(super) server: SocketAddr,
+pub(crate) struct Opening {
+    pub(crate) address: NatNetAddress,
+    pub(crate) server: SocketAddr,
     /// Server information, descriptions and the frame rate, as far as they were captured. Server information there is always.
-    pub(super) packets: Vec<Box<[u8]>>,
+    pub(crate) packets: Vec<Box<[u8]>>,
 }
 
 /// What was found so far.
@@ -33,7 +33,7 @@ struct Search {
 
 impl Opening {
     /// Looks through a capture for what the server says, and at its first frames for their version.
-    pub(super) fn find(path: &Path, options: &CaptureOptions, source: &CapturedSource) -> Result<Self> {
+    pub(crate) fn find(path: &Path, options: &CaptureOptions, source: &CapturedSource) -> Result<Self> {
         let mut search = Search::default();
         for captured in Capture::open(path, options)? {
             let captured = captured?;
@@ -137,8 +137,8 @@ impl Search {
     }
 
     fn clean_frames(&self, version: Version) -> usize {
-        let is_clean = |bytes: &&Box<[u8]>| Message::decode(version, bytes).is_ok_and(|(_, quirks)| quirks.is_empty());
-        self.frames.iter().filter(is_clean).count()
+        let is_clean = |bytes: &[u8]| Message::decode(version, bytes).is_ok_and(|(_, quirks)| quirks.is_empty());
+        self.frames.iter().filter(|bytes| is_clean(bytes)).count()
     }
 }
 

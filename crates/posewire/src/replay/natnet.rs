@@ -1,0 +1,227 @@
+//! A NatNet server whose frames are those of a capture, byte for byte.
+
+use crate::capture::{CaptureOptions, CapturedSource, Opening};
+use crate::clock::Clock;
+use crate::endpoint::{Endpoint, NatNetAddress};
+use crate::net::Sent;
+use crate::sink::{NatNetPorts, TargetProgress};
+use crate::stop::Stop;
+use crate::{Error, Result};
+use posewire_natnet::client::Mode;
+use posewire_natnet::command::ServerInfo;
+use posewire_natnet::model::Model;
+use posewire_natnet::server::{Delivery, Server, ServerOptions};
+use posewire_natnet::{Message, MessageId, Output, Packet, Version};
+use std::net::SocketAddr;
+use std::path::Path;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::{self, JoinHandle};
+use std::time::Duration;
+
+/// A NatNet server whose frames are those of a capture, byte for byte.
+///
+/// Commands are answered as the captured server would: its name, version, descriptions and rate. Frames go as they are to every
+/// client, or to the group. A client that asks for another version than the capture's is refused its frames, as they would have to
+/// be written anew: that is what streaming the capture does.
+pub(super) struct RawServer {
+    endpoint: String,
+    group: Option<SocketAddr>,
+    version: Version,
+    shared: Arc<Shared>,
+    answering: Option<JoinHandle<()>>,
+    counts: TargetProgress,
+}
+
+struct Shared {
+    ports: NatNetPorts,
+    server: Mutex<Server>,
+    clock: Clock,
+    ending: Stop,
+}
+
+impl RawServer {
+    pub(super) fn open(
+        path: &Path,
+        options: &CaptureOptions,
+        source: &CapturedSource,
+        address: &NatNetAddress,
+    ) -> Result<Self> {
+        let opening = Opening::find(path, options, source)?;
+        let ports = NatNetPorts::open(address)?;
+        let address = NatNetAddress {
+            port: ports.command.local_address().port(),
+            data_port: ports.data_port,
+            ..address.clone()
+        };
+        let options = server_options(&opening, &address);
+        let version = options.version;
+        let mut server = Server::new(options);
+        if let Some(model) = opening.model(version) {
+            let subjects = model.descriptions.len();
+            let set = server.set_model(model);
+            set.map_err(|error| Error::Descriptions { subjects, error })?;
+        }
+        let shared = Arc::new(Shared {
+            ports,
+            server: Mutex::new(server),
+            clock: Clock::new(),
+            ending: Stop::new(),
+        });
+        let answers = Arc::clone(&shared);
+        let group = (address.mode == Mode::Multicast).then(|| (address.group, address.data_port).into());
+        Ok(Self {
+            endpoint: Endpoint::NatNet(address).to_string(),
+            group,
+            version,
+            shared,
+            answering: Some(thread::spawn(move || answers.answer_all())),
+            counts: TargetProgress::default(),
+        })
+    }
+
+    /// Whether somebody is there; of a group nobody knows.
+    pub(super) fn is_ready(&self) -> bool {
+        self.group.is_some() || !self.shared.lock().clients().is_empty()
+    }
+
+    /// Sends a frame to all who get frames. What else the captured server sent was an answer, and is left out.
+    pub(super) fn send(&mut self, bytes: &[u8]) {
+        if !Packet::decode(bytes).is_ok_and(|packet| packet.id == MessageId::FRAME) {
+            return;
+        }
+        let clients: Vec<_> = match self.group {
+            Some(group) => vec![group],
+            None => self.readers(),
+        };
+        for to in clients {
+            match self.shared.ports.send_frame(bytes, to) {
+                Sent::Taken | Sent::Nobody => self.counts.datagrams += 1,
+                Sent::NoRoom => self.counts.congested += 1,
+                Sent::Refused => self.counts.failed += 1,
+            }
+        }
+    }
+
+    pub(super) fn finish(&mut self) {
+        self.counts.peers = self.shared.lock().clients().len();
+        self.shared.ending.stop();
+        self.shared.lock().close();
+        self.shared.transmit();
+        if let Some(answering) = self.answering.take() {
+            answering
+                .join()
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        }
+    }
+
+    pub(super) fn progress(&self) -> TargetProgress {
+        let peers = match self.answering {
+            Some(_) => self.shared.lock().clients().len(),
+            None => self.counts.peers,
+        };
+        TargetProgress {
+            endpoint: self.endpoint.clone(),
+            peers,
+            ..self.counts.clone()
+        }
+    }
+
+    /// The clients that can read the frames as they are.
+    fn readers(&self) -> Vec<SocketAddr> {
+        let server = self.shared.lock();
+        let reads = server.clients().iter().filter(|client| client.version == self.version);
+        reads.map(|client| client.address).collect()
+    }
+}
+
+impl Shared {
+    fn lock(&self) -> MutexGuard<'_, Server> {
+        self.server.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Answers commands until the end.
+    fn answer_all(&self) {
+        let mut buffer = vec![0; LONGEST];
+        while !self.ending.is_stopped() {
+            match self.ports.command.receive(TICK, &mut buffer) {
+                Ok(Some((length, from))) => {
+                    let bytes = buffer.get(..length).unwrap_or_default();
+                    self.lock().handle(self.clock.steady(), from, bytes);
+                }
+                Ok(None) => self.lock().handle_timeout(self.clock.steady()),
+                Err(error) => {
+                    tracing::warn!(%error, "cannot receive commands");
+                    self.ending.wait(TICK);
+                }
+            }
+            self.transmit();
+        }
+    }
+
+    fn transmit(&self) {
+        let mut server = self.lock();
+        while let Some(output) = server.poll() {
+            if let Output::Transmit(transmit) = output {
+                // An answer that does not get through is asked for again.
+                let _ = self.ports.send(&transmit);
+            }
+        }
+    }
+}
+
+impl Opening {
+    /// The first descriptions that were captured.
+    fn model(&self, version: Version) -> Option<Model> {
+        self.packets
+            .iter()
+            .find_map(|bytes| match Message::decode(version, bytes) {
+                Ok((Message::Model(model), _)) => Some(model),
+                _ => None,
+            })
+    }
+
+    fn server_info(&self) -> Option<ServerInfo> {
+        self.packets.iter().find_map(|bytes| {
+            let packet = Packet::decode(bytes).ok()?;
+            let is_info = packet.id == MessageId::SERVER_INFO;
+            is_info
+                .then(|| ServerInfo::decode(packet.payload).ok())?
+                .map(|(info, _)| info)
+        })
+    }
+
+    fn rate(&self) -> Option<f32> {
+        self.packets.iter().find_map(|bytes| {
+            let packet = Packet::decode(bytes).ok()?;
+            let is_rate = packet.id == MessageId::RESPONSE;
+            is_rate.then(|| packet.payload.try_into().ok().map(f32::from_le_bytes))?
+        })
+    }
+}
+
+fn server_options(opening: &Opening, address: &NatNetAddress) -> ServerOptions {
+    let mut options = ServerOptions {
+        delivery: match address.mode {
+            Mode::Unicast => Delivery::Unicast,
+            Mode::Multicast => Delivery::Multicast(address.group),
+        },
+        data_port: address.data_port,
+        copy_to_data_port: address.copy,
+        ..ServerOptions::default()
+    };
+    if let Some(info) = opening.server_info() {
+        options.name = info.server.name;
+        options.app_version = info.server.app_version;
+        options.version = info.server.natnet_version;
+        if let Some(connection) = info.connection.filter(|connection| connection.clock_frequency > 0) {
+            options.clock_frequency = connection.clock_frequency;
+        }
+    }
+    if let Some(rate) = opening.rate() {
+        options.frame_rate = rate;
+    }
+    options
+}
+
+const LONGEST: usize = 65_535;
+const TICK: Duration = Duration::from_millis(20);
