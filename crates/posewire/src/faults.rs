@@ -133,12 +133,14 @@ impl Faults {
         self.ready.pop_front()
     }
 
-    /// The stream ends: lets go everything. What waits to be overtaken has then not been reordered.
+    /// The stream ends: lets go everything. What nothing has overtaken has then not been reordered.
     pub fn finish(&mut self) {
         self.handle_timeout(Duration::MAX);
-        for outgoing in self.held.drain() {
-            self.counts.sent += 1;
-            self.ready.push_back(outgoing.bytes);
+        for (outgoing, overtaken) in self.held.drain() {
+            if overtaken {
+                self.counts.add(outgoing.stream, FaultKind::Reorder);
+            }
+            self.send(outgoing);
         }
     }
 

@@ -42,6 +42,7 @@ struct Waiting {
     outgoing: Outgoing,
     /// How many have yet to overtake it.
     overtakers: u32,
+    overtaken: bool,
 }
 
 impl Held {
@@ -50,7 +51,11 @@ impl Held {
         if self.0.len() >= MAX_WAITING {
             return Some(outgoing);
         }
-        self.0.push(Waiting { outgoing, overtakers });
+        self.0.push(Waiting {
+            outgoing,
+            overtakers,
+            overtaken: false,
+        });
         None
     }
 
@@ -66,14 +71,16 @@ impl Held {
         };
         for waiting in self.0.iter_mut().filter(|waiting| overtakes(waiting)) {
             waiting.overtakers -= 1;
+            waiting.overtaken = true;
         }
         let done = self.0.extract_if(.., |waiting| waiting.overtakers == 0);
         done.map(|waiting| waiting.outgoing).collect()
     }
 
-    /// All that still wait.
-    pub(super) fn drain(&mut self) -> impl Iterator<Item = Outgoing> {
-        self.0.drain(..).map(|waiting| waiting.outgoing)
+    /// All that still wait, and whether anything has overtaken them.
+    pub(super) fn drain(&mut self) -> Vec<(Outgoing, bool)> {
+        let all = self.0.drain(..);
+        all.map(|waiting| (waiting.outgoing, waiting.overtaken)).collect()
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod datagrams;
 mod ends;
+mod faults;
 mod harness;
 mod natnet;
 mod natnet_sink;
