@@ -2,6 +2,7 @@
 
 mod demo;
 mod explain;
+mod faults;
 mod inspect;
 mod monitor;
 mod motive;

@@ -82,7 +82,7 @@ fn json_has_the_server_its_frames_and_who_is_tracked() {
 
     let statistics = objects(&ended.out, "statistics");
     let frames = last(&statistics, &[("type", "frame".into()), ("ended", true.into())]);
-    assert_documented(frames, "statistics", &["character"]);
+    assert_documented(frames, "statistics", &["character", "samples"]);
     assert!(frames["received"].as_u64().is_some_and(|count| count >= 30), "{frames}");
 }
 

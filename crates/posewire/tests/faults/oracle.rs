@@ -75,6 +75,7 @@ impl Everything {
         };
         for (_, message_type, counters) in assembler.counters() {
             all.strange += counters.rewound + counters.jumped + counters.incomplete;
+            assert_eq!(counters.datagrams, counters.received + counters.duplicate);
             let counts = Counts {
                 received: counters.received,
                 missing: counters.missing,
