@@ -26,6 +26,7 @@ Where motion comes from and goes to:
   synthetic:walk            people made up on the spot, or with all that can be said of them:
                             \"synthetic:walk?people=2&rate=240&props=1&fingers=true\"
   take.mvnx, take.mvnx.gz   a take exported from MVN
+  take.mcap, .pcap, .pcapng datagrams as they were recorded or captured
 
 Put quotes around what has a ? or a &: shells give them a meaning of their own.
 
@@ -37,6 +38,7 @@ Try it without a suit:  posewire demo";
 pub(crate) enum Command {
     Stream(Stream),
     Monitor(Monitor),
+    Replay(Replay),
     Inspect(Inspect),
     Explain(Explain),
     Demo(Demo),
@@ -131,6 +133,64 @@ pub(crate) struct Playback {
     /// Use a damaged file up to the damage.
     #[arg(long)]
     pub(crate) salvage: bool,
+
+    #[command(flatten)]
+    pub(crate) capture: Capture,
+}
+
+/// How a recording or capture is played again.
+#[derive(Debug, Args)]
+pub(crate) struct Again {
+    /// Of a capture: play so many times as fast as captured.
+    #[arg(long, value_name = "X", default_value_t = 1.0, allow_negative_numbers = true)]
+    pub(crate) speed: f64,
+
+    /// Of a capture: begin again at the end.
+    #[arg(long = "loop")]
+    pub(crate) looped: bool,
+
+    #[command(flatten)]
+    pub(crate) capture: Capture,
+}
+
+/// What of a recording or capture is used.
+#[derive(Debug, Args)]
+pub(crate) struct Capture {
+    /// Of a capture: only this source, by its number or a part of its name.
+    #[arg(long, value_name = "SOURCE")]
+    pub(crate) only: Option<String>,
+
+    /// Of a capture: begin so many seconds after its first datagram.
+    #[arg(long, value_name = "SECONDS", value_parser = moment, allow_negative_numbers = true)]
+    pub(crate) from: Option<Duration>,
+
+    /// Of a capture: end so many seconds after its first datagram.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
+    pub(crate) until: Option<Duration>,
+
+    /// Of a capture of packets: what its UDP datagrams are; told by their content when left out.
+    #[arg(long = "protocol", value_enum, ignore_case = true)]
+    pub(crate) forced: Option<Protocol>,
+}
+
+impl Capture {
+    /// The protocol that was named.
+    pub(crate) fn protocol(&self) -> Option<posewire::capture::Protocol> {
+        self.forced.map(|protocol| match protocol {
+            Protocol::Mxtp => posewire::capture::Protocol::Mxtp,
+            Protocol::Natnet => posewire::capture::Protocol::NatNet,
+        })
+    }
+
+    /// The options that were given.
+    pub(crate) fn given(&self) -> [(&'static str, bool); 4] {
+        [
+            ("--only", self.only.is_some()),
+            ("--from", self.from.is_some()),
+            ("--until", self.until.is_some()),
+            ("--protocol", self.forced.is_some()),
+        ]
+    }
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -150,11 +210,12 @@ Examples:
   posewire monitor \"natnet://10.0.0.7?mode=multicast&interface=eth0\"
   posewire monitor natnet://0.0.0.0                  whichever NatNet server answers
   posewire monitor --json --frames --count 240 > frames.jsonl
+  posewire monitor take.mcap                         a recording, as if it came now
 
 In MVN: Options > Preferences > Network Streamer, add this machine's address with port 9763.
 In Motive: Settings > Streaming, Enable, and as Local Interface the network that you share.")]
 pub(crate) struct Monitor {
-    /// Where to listen, or which NatNet server to connect to.
+    /// Where to listen, which NatNet server to connect to, or a recording or capture to play.
     #[arg(default_value = "mxtp://0.0.0.0:9763")]
     pub(crate) url: String,
 
@@ -174,9 +235,52 @@ pub(crate) struct Monitor {
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     pub(crate) duration: Option<Duration>,
 
+    #[command(flatten)]
+    pub(crate) again: Again,
+
     /// Stop after so many samples, of all characters together.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) count: Option<u64>,
+}
+
+/// Send a recording or a capture again: the same bytes in the same order with the same gaps between them.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  posewire replay take.mcap --to mxtp://127.0.0.1
+  posewire replay take.pcapng --to mxtp+tcp://robot --speed 0.5 --loop
+  posewire replay take.mcap --to mxtp://10.0.0.5 --from 10 --until 12.5 --only 0
+  posewire replay motive.mcap --to natnet://0.0.0.0           be the Motive that was recorded
+  posewire replay take.mcap --to mxtp://10.0.0.5 --faults loss=1%,seed=7
+
+MXTP goes to MXTP targets, NatNet frames to NatNet targets. In a loop the same bytes come again, so that
+receivers see sample numbers start over; posewire stream plays a capture with numbers that go on.")]
+pub(crate) struct Replay {
+    /// A recording (.mcap), or packets captured with tcpdump or Wireshark (.pcap, .pcapng).
+    pub(crate) file: PathBuf,
+
+    /// Where to send it; may be given many times.
+    #[arg(long, value_name = "URL", required = true)]
+    pub(crate) to: Vec<String>,
+
+    #[command(flatten)]
+    pub(crate) again: Again,
+
+    /// Stop after so many seconds.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
+    pub(crate) duration: Option<Duration>,
+
+    /// Make these faults on purpose; as stream has it, for MXTP.
+    #[arg(long, value_name = "PLAN")]
+    pub(crate) faults: Option<String>,
+
+    /// Begin at once, also when nobody has connected yet.
+    #[arg(long)]
+    pub(crate) no_wait: bool,
+
+    /// Print the numbers at the end as one JSON object.
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 /// Say what a take holds.
@@ -205,6 +309,7 @@ pub(crate) struct Inspect {
     disable_version_flag = true,
     after_help = "\
 The file holds one datagram, or several back to back: of MXTP as TCP carries them, of NatNet by the sizes they state.
+Of a recording (.mcap) or a capture (.pcap, .pcapng) each datagram is explained, with its time and its sender.
 
 No NatNet packet says which bitstream it is of. Without --version the newest whose layout fits is taken.
 
@@ -212,6 +317,7 @@ Examples:
   posewire explain packet.bin
   posewire explain frame.bin --version 3.1
   posewire explain cut.bin --protocol natnet
+  posewire explain take.pcapng --summary
   xxd -r -p packet.hex | posewire explain -"
 )]
 pub(crate) struct Explain {
@@ -221,6 +327,10 @@ pub(crate) struct Explain {
     /// What the bytes are; told by the bytes themselves when left out.
     #[arg(long, value_enum, ignore_case = true)]
     pub(crate) protocol: Option<Protocol>,
+
+    /// One line for each datagram.
+    #[arg(long, conflicts_with = "json")]
+    pub(crate) summary: bool,
 
     /// The bitstream that NatNet frames and descriptions are of.
     #[arg(long, value_name = "M.m")]
@@ -270,6 +380,13 @@ pub(crate) struct Demo {
     /// Print a table a second instead of the live page, as when the output is no terminal.
     #[arg(long)]
     pub(crate) plain: bool,
+}
+
+/// A time from the beginning on, which may be the beginning.
+fn moment(text: &str) -> Result<Duration, String> {
+    let expected = || "expected a number of seconds from 0 on, as in 2.5".to_owned();
+    let seconds = text.parse().map_err(|_| expected())?;
+    Duration::try_from_secs_f64(seconds).map_err(|_| expected())
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {
@@ -331,6 +448,7 @@ mod tests {
     fn every_command_of_the_documents_is_one() {
         for (page, text, at_least) in [
             ("README", include_str!("../../../README.md"), 10),
+            ("faults", include_str!("../../../docs/faults.md"), 3),
             ("natnet", include_str!("../../../docs/natnet.md"), 14),
             ("troubleshooting", include_str!("../../../docs/troubleshooting.md"), 2),
         ] {

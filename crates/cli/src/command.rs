@@ -4,6 +4,7 @@ mod demo;
 mod explain;
 mod inspect;
 mod monitor;
+mod replay;
 mod stream;
 
 use crate::cli::Command;
@@ -38,6 +39,7 @@ pub(crate) fn run(command: Command) -> anyhow::Result<End> {
         Command::Monitor(arguments) => monitor::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
+        Command::Replay(arguments) => replay::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),
     }
 }

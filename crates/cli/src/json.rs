@@ -2,12 +2,14 @@
 
 mod faults;
 mod frame;
+mod replay;
 mod server;
 mod statistics;
 mod stream;
 mod subject;
 
 pub(crate) use frame::{FrameRecord, marker_name};
+pub(crate) use replay::ReplayRecord;
 pub(crate) use server::ServerRecord;
 pub(crate) use statistics::{ReceiverRecord, statistics};
 pub(crate) use stream::StreamRecord;

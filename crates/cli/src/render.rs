@@ -6,7 +6,7 @@ pub(crate) use server::{delivery, kind, model, unknown_latencies};
 
 use crate::plain::{cut, printable};
 use posewire::faults::FaultCounts;
-use posewire::sink::{ClientProgress, Progress};
+use posewire::sink::{ClientProgress, Progress, TargetProgress};
 use posewire::source::Preview;
 use posewire::stats::{Statistics, StreamStatistics, SubjectStatistics};
 use std::fmt::Write;
@@ -51,20 +51,26 @@ pub(crate) fn stream_summary(progress: &Progress, unsent: u64) -> String {
         );
     }
     for target in &progress.targets {
-        _ = write!(text, "\n  {}: {} datagrams", target.endpoint, target.datagrams);
-        for (count, what) in [
-            (target.congested, "dropped because the network was busy"),
-            (target.failed, "refused by the system"),
-            (target.dropped, "samples dropped because the peer was slow or away"),
-        ] {
-            if count > 0 {
-                _ = write!(text, ", {count} {what}");
-            }
-        }
+        text += &target_line(target);
         target.clients.iter().for_each(|client| client_line(&mut text, client));
     }
     if let Some(faults) = &progress.faults {
         _ = write!(text, "\n{}", made(faults));
+    }
+    text
+}
+
+/// What became of what was sent to a target, on a line that begins here.
+pub(crate) fn target_line(target: &TargetProgress) -> String {
+    let mut text = format!("\n  {}: {} datagrams", target.endpoint, target.datagrams);
+    for (count, what) in [
+        (target.congested, "dropped because the network was busy"),
+        (target.failed, "refused by the system"),
+        (target.dropped, "samples dropped because the peer was slow or away"),
+    ] {
+        if count > 0 {
+            _ = write!(text, ", {count} {what}");
+        }
     }
     text
 }

@@ -1,5 +1,6 @@
 //! `posewire explain`: the bytes of datagrams, field by field.
 
+mod capture;
 mod input;
 mod json;
 mod mxtp;
@@ -10,12 +11,25 @@ mod text;
 
 use super::End;
 use crate::cli::Explain;
-use crate::error::Failure;
+use crate::error::{Failure, Usage};
 use part::Part;
 use protocol::Reading;
 use std::io::{self, BufWriter, Write};
 
 pub(super) fn run(arguments: &Explain) -> anyhow::Result<End> {
+    if capture::is_capture(&arguments.file) {
+        return explain_capture(arguments);
+    }
+    if arguments.summary {
+        return Err(Usage {
+            problem: format!(
+                "--summary is for recordings and captures, {} is neither",
+                arguments.file.display()
+            ),
+            help: "leave --summary out".to_owned(),
+        }
+        .into());
+    }
     let bytes = input::read(&arguments.file)?;
     let name = input::name(&arguments.file);
     let reading = Reading::of(&bytes, arguments, &name)?;
@@ -26,6 +40,24 @@ pub(super) fn run(arguments: &Explain) -> anyhow::Result<End> {
         return Ok(End::Done);
     }
     Err(nothing_decoded(&name, &bytes, &tally, &reading).into())
+}
+
+fn explain_capture(arguments: &Explain) -> anyhow::Result<End> {
+    let mut out = BufWriter::new(io::stdout().lock());
+    let tally = capture::write_all(arguments, &mut out)?;
+    out.flush()?;
+    if tally.decoded > 0 {
+        return Ok(End::Done);
+    }
+    let name = input::name(&arguments.file);
+    Err(Failure {
+        problem: match tally.malformed {
+            0 => format!("{name}: expected datagrams of MXTP or NatNet, found none"),
+            count => format!("{name}: all {count} datagrams are malformed and were explained as far as they go"),
+        },
+        help: "--protocol says what the datagrams are when their content does not".to_owned(),
+    }
+    .into())
 }
 
 /// What the input held.

@@ -1,7 +1,7 @@
 //! `posewire stream`: a source to MXTP and NatNet targets.
 
 mod peers;
-mod refuse;
+pub(super) mod refuse;
 mod sinks;
 mod types;
 
@@ -29,6 +29,7 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
         .collect::<posewire::Result<Vec<Endpoint>>>()?;
     refuse::endless(&from, &targets)?;
     let plan = arguments.faults.as_deref().map(str::parse::<FaultPlan>).transpose()?;
+    refuse::capture(&arguments.playback.capture, &from)?;
     let source = Source::open(&from, &playback_options(&arguments.playback))?;
     if source.is_live() {
         refuse::playback(&arguments.playback)?;
@@ -75,12 +76,17 @@ fn playback_options(arguments: &Playback) -> PlaybackOptions {
         looped: arguments.looped,
         duration: arguments.duration,
         salvage: arguments.salvage,
+        only: arguments.capture.only.clone(),
+        from: arguments.capture.from.unwrap_or_default(),
+        until: arguments.capture.until,
+        protocol: arguments.capture.protocol(),
     }
 }
 
 fn announce(source: &Source, types: Option<MessageTypes>, progress: &Progress) {
     let who = source.preview().map_or_else(String::new, render::who);
     let types = types.map_or_else(String::new, |types| format!(", types {types}"));
+    let who = source.captured().map_or(who, |captured| format!(", {}", captured.name));
     say(format_args!("streaming {}{who}{types}", source.endpoint()));
     for target in &progress.targets {
         say(format_args!("  to {}", target.endpoint));

@@ -26,7 +26,7 @@ struct LeftOutRecord<'a> {
 }
 
 #[derive(Serialize)]
-struct TargetRecord<'a> {
+pub(super) struct TargetRecord<'a> {
     endpoint: &'a str,
     peers: usize,
     datagrams: u64,
@@ -64,7 +64,7 @@ impl<'a> StreamRecord<'a> {
 }
 
 impl<'a> TargetRecord<'a> {
-    fn of(target: &'a TargetProgress) -> Self {
+    pub(super) fn of(target: &'a TargetProgress) -> Self {
         Self {
             endpoint: &target.endpoint,
             peers: target.peers,

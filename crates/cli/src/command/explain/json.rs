@@ -3,24 +3,30 @@
 use super::natnet::{Bitstream, Origin};
 use super::part::{Explained, Field, Header, Value, hexadecimal};
 use crate::json;
+use posewire::capture::Captured;
 use posewire_natnet::{MessageId, Version};
 use serde::Serialize;
 use std::io::Write;
 
 pub(super) fn write_datagram(explained: &Explained<'_>, out: &mut impl Write) -> posewire::Result<()> {
-    let record = DatagramRecord {
-        kind: "datagram",
-        protocol: explained.protocol.name(),
-        offset: explained.offset,
-        length: explained.bytes.len(),
-        summary: Some(&*explained.title).filter(|_| explained.error.is_none()),
-        header: explained.header.as_ref().map(HeaderRecord::of),
-        bitstream: explained.bitstream.map(BitstreamRecord::of),
-        fields: explained.fields.iter().map(FieldRecord::of).collect(),
-        quirks: explained.quirks.iter().map(|quirk| quirk.name).collect(),
-        error: explained.error.as_deref(),
+    json::write(out, &DatagramRecord::of(explained, None))
+}
+
+/// Also says when a datagram was captured, and between whom.
+pub(super) fn write_captured(
+    explained: &Explained<'_>,
+    captured: &Captured,
+    out: &mut impl Write,
+) -> posewire::Result<()> {
+    let datagram = &captured.datagram;
+    let captured = CapturedRecord {
+        source: captured.source,
+        wire: datagram.wire.name(),
+        from: datagram.from.to_string(),
+        to: datagram.to.to_string(),
+        received_ns: datagram.received.nanoseconds(),
     };
-    json::write(out, &record)
+    json::write(out, &DatagramRecord::of(explained, Some(captured)))
 }
 
 pub(super) fn write_skipped(offset: usize, length: usize, out: &mut impl Write) -> posewire::Result<()> {
@@ -42,8 +48,19 @@ struct SkippedRecord {
 }
 
 #[derive(Serialize)]
+struct CapturedRecord {
+    source: u16,
+    wire: &'static str,
+    from: String,
+    to: String,
+    received_ns: i64,
+}
+
+#[derive(Serialize)]
 struct DatagramRecord<'a> {
     kind: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    captured: Option<CapturedRecord>,
     protocol: &'static str,
     offset: usize,
     length: usize,
@@ -53,6 +70,24 @@ struct DatagramRecord<'a> {
     fields: Vec<FieldRecord<'a>>,
     quirks: Vec<&'static str>,
     error: Option<&'a str>,
+}
+
+impl<'a> DatagramRecord<'a> {
+    fn of(explained: &'a Explained<'_>, captured: Option<CapturedRecord>) -> Self {
+        Self {
+            kind: "datagram",
+            captured,
+            protocol: explained.protocol.name(),
+            offset: explained.offset,
+            length: explained.bytes.len(),
+            summary: Some(&*explained.title).filter(|_| explained.error.is_none()),
+            header: explained.header.as_ref().map(HeaderRecord::of),
+            bitstream: explained.bitstream.map(BitstreamRecord::of),
+            fields: explained.fields.iter().map(FieldRecord::of).collect(),
+            quirks: explained.quirks.iter().map(|quirk| quirk.name).collect(),
+            error: explained.error.as_deref(),
+        }
+    }
 }
 
 #[derive(Serialize)]

@@ -1,9 +1,11 @@
 //! Explanations for people: a summary, a table of the fields, what is unusual.
 
 use super::Tally;
+use super::capture::Place;
 use super::natnet::Bitstream;
 use super::part::{self, Explained, Field, Header, Value};
 use crate::plain::{cut, grouped, plural, printable};
+use posewire::Datagram;
 use std::fmt::{Display, LowerExp};
 use std::io::{self, Write};
 
@@ -26,6 +28,26 @@ pub(super) fn write_datagram(explained: &Explained<'_>, out: &mut impl Write) ->
         Some(error) => writeln!(out, "\nmalformed\n  {}", printable(error)),
         None => Ok(()),
     }
+}
+
+/// A datagram of a capture: when it came and between whom, then what it says, or only a line of that.
+pub(super) fn write_captured(
+    explained: &Explained<'_>,
+    place: &Place<'_>,
+    summary: bool,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let Place { datagram, seconds } = place;
+    let Datagram { from, to, wire, .. } = datagram;
+    if summary {
+        let title = cut(&printable(&explained.title), LONGEST_TITLE);
+        return writeln!(out, "{seconds:>12.6}  {from} > {to}  {title}");
+    }
+    let received = datagram.received.nanoseconds();
+    let (whole, rest) = (received.div_euclid(1_000_000_000), received.rem_euclid(1_000_000_000));
+    writeln!(out, "+{seconds:.6} s, at {whole}.{rest:09}, {from} > {to}, {wire}")?;
+    write_datagram(explained, out)?;
+    writeln!(out)
 }
 
 pub(super) fn write_skipped(offset: usize, bytes: &[u8], out: &mut impl Write) -> io::Result<()> {

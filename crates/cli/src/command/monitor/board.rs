@@ -16,6 +16,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 pub(super) struct Board {
     endpoint: Arc<Endpoint>,
     listening: Arc<str>,
+    is_played: bool,
     newest: Arc<Mutex<Newest>>,
     count: Option<u64>,
     stop: Stop,
@@ -48,9 +49,19 @@ impl Board {
         Self {
             endpoint: Arc::new(endpoint.clone()),
             listening: endpoint.to_string().into(),
+            is_played: false,
             newest: Arc::default(),
             count,
             stop,
+        }
+    }
+
+    /// The same board for a file that is played.
+    pub(super) fn playing(self, file: &Endpoint) -> Self {
+        Self {
+            listening: format!("{file}, {}", self.listening).into(),
+            is_played: true,
+            ..self
         }
     }
 
@@ -69,6 +80,9 @@ impl Board {
 
     /// What to say when it begins.
     pub(super) fn opening(&self) -> String {
+        if self.is_played {
+            return format!("playing {}", self.listening);
+        }
         hint::opening(&self.endpoint)
     }
 

@@ -8,6 +8,7 @@ mod protocol;
 mod silence;
 
 use super::End;
+use super::stream::refuse;
 use crate::cli::Monitor;
 use crate::context::{self, say};
 use crate::error::Usage;
@@ -23,16 +24,46 @@ use std::time::{Duration, Instant};
 pub(super) fn run(arguments: &Monitor) -> anyhow::Result<End> {
     let stop = context::stop_on_interrupt()?;
     let endpoint: Endpoint = arguments.url.parse()?;
-    refuse_files(&endpoint)?;
-    let source = Source::open(&endpoint, &PlaybackOptions::default())?;
+    refuse_takes(&endpoint)?;
+    refuse::capture(&arguments.again.capture, &endpoint)?;
+    let source = Source::open(&endpoint, &playback_options(arguments))?;
+    refuse_playback(arguments, &source)?;
     context::stop_after(&stop, arguments.duration);
     let view = View::choose(arguments.json, arguments.frames, arguments.plain);
     show(source, view, arguments.count, &stop)
 }
 
-/// What is not live is not monitored.
-fn refuse_files(endpoint: &Endpoint) -> Result<(), Usage> {
+fn playback_options(arguments: &Monitor) -> PlaybackOptions {
+    PlaybackOptions {
+        speed: arguments.again.speed,
+        looped: arguments.again.looped,
+        only: arguments.again.capture.only.clone(),
+        from: arguments.again.capture.from.unwrap_or_default(),
+        until: arguments.again.capture.until,
+        protocol: arguments.again.capture.protocol(),
+        ..PlaybackOptions::default()
+    }
+}
+
+/// A live stream comes as it comes.
+fn refuse_playback(arguments: &Monitor, source: &Source) -> Result<(), Usage> {
+    let given = [
+        ("--speed", arguments.again.speed.to_bits() != 1_f64.to_bits()),
+        ("--loop", arguments.again.looped),
+    ];
+    match given.into_iter().find(|(_, is_given)| *is_given && source.is_live()) {
+        None => Ok(()),
+        Some((option, _)) => Err(Usage {
+            problem: format!("{option} is for recordings and captures, and the source is a live stream"),
+            help: format!("leave {option} out"),
+        }),
+    }
+}
+
+/// What neither is live nor was is not monitored.
+fn refuse_takes(endpoint: &Endpoint) -> Result<(), Usage> {
     let help = match endpoint {
+        Endpoint::File { format, .. } if format.is_capture() => return Ok(()),
         Endpoint::File { .. } => format!("posewire inspect {endpoint} says what it holds, posewire stream sends it"),
         Endpoint::Synthetic(_) => "posewire demo shows the walker".to_owned(),
         _ => return Ok(()),
@@ -41,6 +72,16 @@ fn refuse_files(endpoint: &Endpoint) -> Result<(), Usage> {
         problem: format!("expected a live stream to monitor, as mxtp://0.0.0.0:9763, found {endpoint}"),
         help,
     })
+}
+
+/// The board of a source; that of a capture is shown as what was captured.
+fn board_of(source: &Source, count: Option<u64>, stop: &Stop) -> Board {
+    let board = |endpoint| Board::new(endpoint, count, stop.clone());
+    let Some(captured) = source.captured() else {
+        return board(source.endpoint());
+    };
+    let name = captured.name.parse().unwrap_or_else(|_| source.endpoint().clone());
+    board(&name).playing(source.endpoint())
 }
 
 /// How a stream is shown.
@@ -66,15 +107,18 @@ impl View {
 
 /// Shows a stream until it ends, `count` samples have come or `stop` is set.
 pub(super) fn show(source: Source, view: View, count: Option<u64>, stop: &Stop) -> anyhow::Result<End> {
-    let board = Board::new(source.endpoint(), count, stop.clone());
+    let board = board_of(&source, count, stop);
     let watched = board.clone();
+    let is_live = source.is_live();
     let mut sinks: Vec<Box<dyn Sink>> = vec![Box::new(board.sink())];
     match view {
         View::Print(format) => {
             say(board.opening());
             sinks.push(Box::new(Printer::new(format, count)));
             let session = Session::start([source], sinks, stop.clone());
-            warn_of_silence(&watched, &session, stop);
+            if is_live {
+                warn_of_silence(&watched, &session, stop);
+            }
             finish(session, &watched, view)
         }
         View::Page => {

@@ -1,6 +1,6 @@
 //! What cannot be streamed, found before anything is sent.
 
-use crate::cli::Playback;
+use crate::cli::{Capture, Playback};
 use crate::error::Usage;
 use posewire::Source;
 use posewire::endpoint::{Endpoint, Host};
@@ -18,6 +18,20 @@ pub(super) fn playback(arguments: &Playback) -> Result<(), Usage> {
         None => Ok(()),
         Some((option, _)) => Err(Usage {
             problem: format!("{option} is for takes and the walker, and the source is a live stream"),
+            help: format!("leave {option} out"),
+        }),
+    }
+}
+
+/// What is no capture has no sources to choose from.
+pub(in crate::command) fn capture(arguments: &Capture, source: &Endpoint) -> Result<(), Usage> {
+    if matches!(source, Endpoint::File { format, .. } if format.is_capture()) {
+        return Ok(());
+    }
+    match arguments.given().into_iter().find(|(_, is_given)| *is_given) {
+        None => Ok(()),
+        Some((option, _)) => Err(Usage {
+            problem: format!("{option} is for recordings and captures, found {source}"),
             help: format!("leave {option} out"),
         }),
     }

@@ -2,6 +2,7 @@
 
 use super::{refuse, types};
 use crate::cli::{Revision, Stream};
+use posewire::capture::Protocol;
 use posewire::endpoint::Endpoint;
 use posewire::faults::FaultPlan;
 use posewire::sink::{MxtpSink, MxtpSinkOptions, NatNetSink, NatNetSinkOptions, Progress};
@@ -102,11 +103,17 @@ fn mxtp_options(arguments: &Stream, source: &Source, targets: &[Endpoint]) -> an
         split: arguments.split.map(|bytes| bytes as usize),
         character: arguments.character,
         name: arguments.name.clone(),
-        fit: matches!(source.endpoint(), Endpoint::NatNet(_)),
+        fit: is_natnet(source),
         faults: None,
     };
     refuse::too_many(source, &options)?;
     Ok(Some(options))
+}
+
+/// Whether subjects come as another system has them.
+fn is_natnet(source: &Source) -> bool {
+    let captured = source.captured().and_then(|captured| captured.protocol);
+    matches!(source.endpoint(), Endpoint::NatNet(_)) || captured == Some(Protocol::NatNet)
 }
 
 /// Clients are told the rate at which samples leave, where that is known.

@@ -1,0 +1,121 @@
+//! The datagrams of a recording or capture, each with its time and its sender.
+
+use super::natnet::Bitstream;
+use super::protocol::Reading;
+use super::{Tally, json, text};
+use crate::cli::Explain;
+use crate::error::Usage;
+use posewire::Datagram;
+use posewire::capture::{Capture, CaptureOptions, Captured, Protocol};
+use posewire_natnet::{MessageId, Packet};
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::Path;
+
+/// Whether the file is one.
+pub(super) fn is_capture(path: &Path) -> bool {
+    // What is no file can be read only once.
+    path.is_file() && Capture::open(path, &CaptureOptions::default()).is_ok()
+}
+
+/// Explains every datagram.
+pub(super) fn write_all(arguments: &Explain, out: &mut impl Write) -> anyhow::Result<Tally> {
+    let options = CaptureOptions {
+        protocol: arguments.protocol.map(|protocol| match protocol {
+            crate::cli::Protocol::Mxtp => Protocol::Mxtp,
+            crate::cli::Protocol::Natnet => Protocol::NatNet,
+        }),
+    };
+    let readings = Readings::find(arguments, &options)?;
+    let mut tally = Tally::default();
+    let mut origin = None;
+    for captured in Capture::open(&arguments.file, &options)? {
+        let captured = captured?;
+        let datagram = &captured.datagram;
+        let reading = readings.of(&captured);
+        let explained = reading.explain(0, &datagram.bytes);
+        let origin = *origin.get_or_insert(datagram.received);
+        if arguments.json {
+            json::write_captured(&explained, &captured, out)?;
+        } else {
+            let place = Place {
+                datagram,
+                seconds: (datagram.received - origin) as f64 / 1e9,
+            };
+            text::write_captured(&explained, &place, arguments.summary, out)?;
+        }
+        match explained.error {
+            None => tally.decoded += 1,
+            Some(_) => tally.malformed += 1,
+        }
+    }
+    if !arguments.json {
+        text::write_tally(&tally, out)?;
+    }
+    Ok(tally)
+}
+
+/// A datagram and when it came.
+pub(super) struct Place<'a> {
+    pub(super) datagram: &'a Datagram,
+    /// Seconds after the first.
+    pub(super) seconds: f64,
+}
+
+/// How the datagrams of each source are read.
+struct Readings {
+    mxtp: Reading,
+    natnet: BTreeMap<u16, Reading>,
+}
+
+impl Readings {
+    /// Looks at the first packets of each NatNet source: none says which bitstream it is of.
+    fn find(arguments: &Explain, options: &CaptureOptions) -> anyhow::Result<Self> {
+        let mut packets: BTreeMap<u16, Vec<Box<[u8]>>> = BTreeMap::new();
+        for captured in Capture::open(&arguments.file, options)? {
+            let captured = captured?;
+            if Protocol::of(captured.datagram.wire) == Protocol::NatNet {
+                let first = packets.entry(captured.source).or_default();
+                if first.len() < LOOKED_AT && has_layout(&captured.datagram.bytes) {
+                    first.push(captured.datagram.bytes);
+                }
+            }
+        }
+        if let (Some(version), true) = (arguments.version, packets.is_empty()) {
+            return Err(Usage {
+                problem: format!(
+                    "--version {version} is of NatNet, {} holds none",
+                    arguments.file.display()
+                ),
+                help: "leave --version out: MXTP says its revision itself".to_owned(),
+            }
+            .into());
+        }
+        let reading = |packets: Vec<Box<[u8]>>| {
+            Reading::NatNet(match arguments.version {
+                Some(version) => Bitstream::given(version),
+                None => Bitstream::guess(packets.iter().map(AsRef::as_ref)),
+            })
+        };
+        Ok(Self {
+            mxtp: Reading::Mxtp,
+            natnet: packets
+                .into_iter()
+                .map(|(source, packets)| (source, reading(packets)))
+                .collect(),
+        })
+    }
+
+    fn of(&self, captured: &Captured) -> &Reading {
+        match Protocol::of(captured.datagram.wire) {
+            Protocol::NatNet => self.natnet.get(&captured.source).unwrap_or(&self.mxtp),
+            _ => &self.mxtp,
+        }
+    }
+}
+
+fn has_layout(packet: &[u8]) -> bool {
+    Packet::decode(packet).is_ok_and(|packet| matches!(packet.id, MessageId::FRAME | MessageId::MODEL))
+}
+
+const LOOKED_AT: usize = 32;

@@ -1,0 +1,152 @@
+//! `posewire replay`: the datagrams of a capture sent again.
+
+use super::End;
+use crate::cli::Replay;
+use crate::context::{self, end_progress, say, show_progress};
+use crate::plain::{grouped, plural};
+use crate::{json, render};
+use posewire::capture::{CapturedSource, Counts};
+use posewire::endpoint::Endpoint;
+use posewire::faults::FaultPlan;
+use posewire::replay::{self, ReplayOptions, Replayed};
+use posewire::stop::Stop;
+use std::fmt::Write;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+pub(super) fn run(arguments: &Replay) -> anyhow::Result<End> {
+    let stop = context::stop_on_interrupt()?;
+    let targets = arguments.to.iter().map(|url| url.parse());
+    let targets = targets.collect::<posewire::Result<Vec<Endpoint>>>()?;
+    let plan = arguments.faults.as_deref().map(str::parse::<FaultPlan>).transpose()?;
+    let replay = replay::Replay::open(&arguments.file, &targets, &options(arguments, plan.clone()))?;
+    announce(arguments, &replay);
+    if let Some(plan) = &plan {
+        say(format_args!("faults on purpose: {plan}"));
+    }
+    if !arguments.no_wait && !replay.is_ready() {
+        say("waiting for somebody to connect");
+        replay.wait_until_ready(&stop);
+    }
+    context::stop_after(&stop, arguments.duration);
+    let replayed = run_and_show(replay, &stop);
+    end_progress();
+    let replayed = replayed?;
+    if let Some(damage) = &replayed.damage {
+        say(format_args!("the file is damaged: {damage}"));
+    }
+    if arguments.json {
+        json::print(&json::ReplayRecord::new(&replayed, plan.as_ref()))?;
+    } else {
+        say(summary(&replayed));
+    }
+    Ok(End::with_lost(replayed.lost()))
+}
+
+fn options(arguments: &Replay, faults: Option<FaultPlan>) -> ReplayOptions {
+    ReplayOptions {
+        speed: arguments.again.speed,
+        looped: arguments.again.looped,
+        from: arguments.again.capture.from.unwrap_or_default(),
+        until: arguments.again.capture.until,
+        only: arguments.again.capture.only.clone(),
+        protocol: arguments.again.capture.protocol(),
+        faults,
+    }
+}
+
+fn announce(arguments: &Replay, replay: &replay::Replay) {
+    say(format_args!("replaying {}", arguments.file.display()));
+    replay.sources().for_each(announce_source);
+    let progress = replay.progress();
+    let progress = progress.lock().unwrap_or_else(PoisonError::into_inner);
+    for target in &progress.targets {
+        say(format_args!("  to {}", target.endpoint));
+    }
+    if let Some(words) = unread(&replay.survey().counts) {
+        say(format_args!("of the capture could not be used: {words}"));
+    }
+}
+
+fn announce_source(source: &CapturedSource) {
+    let datagrams = plural(source.datagrams, "datagram");
+    let seconds = source.span.map_or(0.0, |(first, last)| last.since(first).as_secs_f64());
+    say(format_args!(
+        "  {} {}: {datagrams} in {seconds:.3} s",
+        source.number, source.name
+    ));
+}
+
+/// What of a capture could not be used, in words.
+pub(super) fn unread(counts: &Counts) -> Option<String> {
+    let kinds = [
+        (
+            counts.unknown_link,
+            "packet of an unknown link",
+            "packets of an unknown link",
+        ),
+        (counts.malformed, "malformed packet", "malformed packets"),
+        (
+            counts.cut,
+            "packet cut short by the capture",
+            "packets cut short by the capture",
+        ),
+        (
+            counts.incomplete,
+            "packet without all of its fragments",
+            "packets without all of their fragments",
+        ),
+        (counts.gaps, "gap in a TCP stream", "gaps in TCP streams"),
+        (counts.skipped_bytes, "byte of no datagram", "bytes of no datagram"),
+    ];
+    let words = kinds.into_iter().filter(|(count, ..)| *count > 0);
+    let words: Vec<_> = words
+        .map(|(count, one, many)| format!("{} {}", grouped(count), if count == 1 { one } else { many }))
+        .collect();
+    (!words.is_empty()).then(|| words.join(", "))
+}
+
+/// Replays on a thread of its own and shows how far it is.
+fn run_and_show(replay: replay::Replay, stop: &Stop) -> posewire::Result<Replayed> {
+    let progress = replay.progress();
+    let at_work = stop.clone();
+    let running = thread::spawn(move || replay.run(&at_work));
+    while !running.is_finished() {
+        show_progress(line(&progress));
+        // Also when asked to stop it has something to bring to its end.
+        thread::sleep(LOOK_EVERY);
+    }
+    running.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+}
+
+fn line(progress: &Arc<Mutex<Replayed>>) -> String {
+    let progress = progress.lock().unwrap_or_else(PoisonError::into_inner);
+    let seconds = progress.position.as_secs_f64();
+    format!("{seconds:.1} s, {} datagrams", grouped(progress.datagrams))
+}
+
+fn summary(replayed: &Replayed) -> String {
+    let mut text = format!(
+        "replayed {}, lateness {}",
+        plural(replayed.datagrams, "datagram"),
+        replayed.lateness
+    );
+    for (count, why) in [
+        (replayed.without_target, "left out: no target of their protocol"),
+        (replayed.asked, "left out: NatNet clients had sent them"),
+    ] {
+        if count > 0 {
+            _ = write!(text, "\n  {} {why}", plural(count, "datagram"));
+        }
+    }
+    for target in &replayed.targets {
+        text += &render::target_line(target);
+    }
+    if let Some(faults) = &replayed.faults {
+        _ = write!(text, "\n{}", render::made(faults));
+    }
+    text
+}
+
+const LOOK_EVERY: Duration = Duration::from_millis(50);
