@@ -25,7 +25,7 @@ impl Draw {
     /// A detail of a fault: a number below `limit`, 0 when that is 0.
     pub(super) fn below(self, kind: FaultKind, limit: u64) -> u64 {
         let number = u128::from(self.number(2 * kind as u64 + 1));
-        (number * u128::from(limit) >> 64) as u64
+        ((number * u128::from(limit)) >> 64) as u64
     }
 
     fn number(self, question: u64) -> u64 {

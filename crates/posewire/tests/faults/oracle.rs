@@ -38,7 +38,9 @@ impl Everything {
             let header = Header::decode(bytes).ok();
             if Datagram::decode(bytes).is_err() {
                 all.malformed += 1;
-                header.map(|header| all.streams.entry(header.message_type).or_default().malformed += 1);
+                if let Some(header) = header {
+                    all.streams.entry(header.message_type).or_default().malformed += 1;
+                }
                 continue;
             }
             let header = header.unwrap();

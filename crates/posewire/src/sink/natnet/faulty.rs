@@ -55,6 +55,6 @@ impl FaultyFrames {
     /// How often what was done to the frames of all clients.
     pub(super) fn counts(&self) -> FaultCounts {
         let clients = self.clients.values().map(LiveFaults::counts);
-        clients.fold(FaultCounts::default(), |all, counts| all.and(counts))
+        clients.fold(FaultCounts::default(), FaultCounts::and)
     }
 }
