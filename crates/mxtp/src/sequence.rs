@@ -9,6 +9,7 @@ use before::{Before, Straggler};
 use pace::Pace;
 use posewire_motion::Stamp;
 use runs::{EqualSteps, OldRun};
+use std::cmp::Ordering;
 use std::time::Duration;
 use window::{Window, found_by, missing_in};
 
@@ -192,7 +193,7 @@ impl Sequence {
     fn is_jump(&self, step: u32, now: Stamp) -> bool {
         let Some(stride) = self.stride else { return false };
         let strides = f64::from(step / stride);
-        strides > SHORT_GAP && strides > 4.0 * self.pace.counts_until(now) / f64::from(stride) + SHORT_GAP
+        strides > 4.0 * self.pace.counts_until(now) / f64::from(stride) + SHORT_GAP
     }
 
     /// Whether a sample that far behind the newest cannot be told from a new session's.
@@ -258,13 +259,15 @@ impl Sequence {
     fn count_step(&mut self, step: u32) {
         let missing = u64::from(missing_in(step, self.stride));
         self.tally.missing += missing;
-        let stride = self.stride.unwrap_or(step);
-        if step == stride {
-            self.other_steps = EqualSteps::default();
-            return;
-        }
         // Heavy loss makes several double steps in a row, but nothing makes steps too short.
-        let enough = if step < stride { LESSON } else { 2 * LESSON };
+        let enough = match step.cmp(&self.stride.unwrap_or(step)) {
+            Ordering::Less => LESSON,
+            Ordering::Equal => {
+                self.other_steps = EqualSteps::default();
+                return;
+            }
+            Ordering::Greater => 2 * LESSON,
+        };
         if self.other_steps.extend(step) == enough {
             self.tally.missing = self.tally.missing.saturating_sub(enough as u64 * missing);
             self.stride = Some(step);
@@ -297,220 +300,4 @@ const SILENCE: Duration = Duration::from_millis(500);
 const HALF: u32 = 1 << 31;
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn observe(sequence: &mut Sequence, samples: impl IntoIterator<Item = u32>) -> Vec<Observation> {
-        let mut now = sequence.pace.newest;
-        let step = |sample| {
-            now = now.after(Duration::from_millis(4));
-            sequence.observe(sample, now)
-        };
-        samples.into_iter().map(step).collect()
-    }
-
-    fn tally(missing: u64, duplicate: u64, late: u64, reset: u64) -> Tally {
-        Tally {
-            missing,
-            duplicate,
-            late,
-            reset,
-            ..Tally::default()
-        }
-    }
-
-    #[test]
-    fn what_goes_back_after_a_silence_is_a_new_session() {
-        let mut sequence = Sequence::new();
-        observe(&mut sequence, 0..30);
-        let later = sequence.pace.newest.after(Duration::from_secs(1));
-        assert_eq!(sequence.observe(29, later), Observation::Duplicate);
-        assert_eq!(sequence.observe(0, later), Observation::Reset(ResetKind::Restart));
-        assert_eq!(sequence.tally(), tally(0, 1, 0, 1));
-    }
-
-    #[test]
-    fn a_constant_stride_is_not_loss() {
-        let mut sequence = Sequence::new();
-        observe(&mut sequence, (0..100).map(|n| 4 * n));
-        assert_eq!((sequence.stride(), sequence.tally()), (Some(4), Tally::default()));
-        observe(&mut sequence, [408]);
-        assert_eq!(sequence.tally().missing, 2);
-    }
-
-    #[test]
-    fn losses_among_the_first_steps_are_counted_when_the_stride_is_learnt() {
-        let mut sequence = Sequence::new();
-        observe(&mut sequence, [0, 6, 9, 12, 15]);
-        assert_eq!((sequence.stride(), sequence.tally().missing), (Some(3), 1));
-    }
-
-    #[test]
-    fn a_decimation_that_is_no_whole_number_is_not_loss() {
-        let mut sequence = Sequence::new();
-        observe(&mut sequence, (0..100).map(|n| n * 5 / 2));
-        assert_eq!(sequence.tally(), Tally::default());
-    }
-
-    #[test]
-    fn the_counter_wraps_around() {
-        let mut sequence = Sequence::new();
-        observe(&mut sequence, (0..100).map(|n: u32| (n * 3).wrapping_sub(150)));
-        assert_eq!((sequence.stride(), sequence.tally()), (Some(3), Tally::default()));
-    }
-
-    #[test]
-    fn a_late_sample_is_no_longer_missing() {
-        let mut sequence = Sequence::new();
-        let seen = observe(&mut sequence, (0..20).chain([22, 20, 21, 21]));
-        let expected = [
-            Observation::New { missing_before: 2 },
-            Observation::Late,
-            Observation::Late,
-            Observation::Duplicate,
-        ];
-        assert_eq!(seen[20..], expected);
-        assert_eq!(sequence.tally(), tally(0, 1, 2, 0));
-    }
-
-    #[test]
-    fn a_stream_that_begins_out_of_order_misses_nothing() {
-        let mut sequence = Sequence::new();
-        observe(&mut sequence, [3, 1, 0, 2, 4, 5]);
-        assert_eq!(sequence.tally(), tally(0, 0, 3, 0));
-    }
-
-    #[test]
-    fn a_new_session_is_a_reset() {
-        let mut sequence = Sequence::new();
-        let seen = observe(&mut sequence, (1000..1400).chain(0..10));
-        assert_eq!(seen[400], Observation::Reset(ResetKind::Restart));
-        assert_eq!(sequence.tally(), tally(0, 0, 0, 1));
-    }
-
-    #[test]
-    fn the_first_sample_again_is_a_duplicate() {
-        let mut sequence = Sequence::new();
-        observe(&mut sequence, [0; 20]);
-        assert_eq!(sequence.tally(), tally(0, 19, 0, 0));
-    }
-
-    #[test]
-    fn a_short_session_that_starts_anew_is_a_reset() {
-        let mut sequence = Sequence::new();
-        let seen = observe(&mut sequence, (0..50).chain(0..20));
-        assert_eq!(seen[57], Observation::Reset(ResetKind::Restart));
-        assert_eq!(sequence.tally(), tally(0, 0, 0, 1));
-    }
-
-    #[test]
-    fn a_rewind_into_a_gap_gives_back_what_was_missing() {
-        let mut sequence = Sequence::new();
-        observe(&mut sequence, (0..20).chain(30..100).chain(20..60));
-        let rewound = Tally {
-            rewound: 1,
-            ..tally(10, 0, 0, 0)
-        };
-        assert_eq!(sequence.tally(), rewound);
-        assert_eq!(sequence.newest(), Some(59));
-    }
-
-    #[test]
-    fn a_jump_forward_is_no_loss_but_an_outage_is() {
-        let mut jump = Sequence::new();
-        let seen = observe(&mut jump, (0..100).chain(5000..5010));
-        assert_eq!(seen[100], Observation::Reset(ResetKind::Jump));
-        let jumped = Tally {
-            jumped: 1,
-            ..Tally::default()
-        };
-        assert_eq!(jump.tally(), jumped);
-
-        let mut outage = Sequence::new();
-        observe(&mut outage, 0..100);
-        let later = outage.pace.newest.after(Duration::from_millis(4 * 4900));
-        assert_eq!(outage.observe(5000, later), Observation::New { missing_before: 4900 });
-    }
-
-    #[test]
-    fn a_new_stride_is_learnt_and_what_it_seemed_to_miss_is_not_counted() {
-        let mut sequence = Sequence::new();
-        observe(&mut sequence, (0..100).chain((102..200).step_by(3)));
-        assert_eq!((sequence.stride(), sequence.tally()), (Some(3), Tally::default()));
-        observe(&mut sequence, 199..220);
-        assert_eq!((sequence.stride(), sequence.tally()), (Some(1), Tally::default()));
-    }
-
-    #[test]
-    fn pairs_that_always_swap_do_not_look_like_a_stride() {
-        let mut sequence = Sequence::new();
-        observe(&mut sequence, (0..200).map(|n| n ^ 1));
-        assert_eq!((sequence.stride(), sequence.tally()), (Some(1), tally(0, 0, 100, 0)));
-    }
-
-    #[test]
-    fn a_pause_of_the_sender_is_no_loss() {
-        let mut sequence = Sequence::new();
-        observe(&mut sequence, 0..100);
-        sequence.pace.newest = sequence.pace.newest.after(Duration::from_hours(1));
-        observe(&mut sequence, 100..200);
-        assert_eq!(sequence.tally(), Tally::default());
-    }
-
-    #[test]
-    fn a_counter_that_began_anew_during_a_silence_is_a_reset_and_no_rewind() {
-        let mut sequence = Sequence::new();
-        observe(&mut sequence, 0..2000);
-        let later = sequence.pace.newest.after(Duration::from_secs(3));
-        assert_eq!(sequence.observe(740, later), Observation::Reset(ResetKind::Restart));
-        let soon = later.after(Duration::from_millis(4));
-        let mut other = Sequence::new();
-        observe(&mut other, 0..2000);
-        other.pace.newest = later;
-        assert_eq!(other.observe(740, soon), Observation::Reset(ResetKind::Rewind));
-    }
-
-    #[test]
-    fn what_is_left_of_the_session_before_is_late_and_no_session_of_its_own() {
-        let mut sequence = Sequence::new();
-        let before = (0..997).chain([998]);
-        let seen = observe(&mut sequence, before.chain([0, 997, 1, 999, 999, 2, 3]));
-        let expected = [
-            Observation::Reset(ResetKind::Restart),
-            Observation::Straggler,
-            Observation::New { missing_before: 0 },
-            Observation::Straggler,
-            Observation::Duplicate,
-            Observation::New { missing_before: 0 },
-            Observation::New { missing_before: 0 },
-        ];
-        assert_eq!(seen[998..], expected);
-        assert_eq!(sequence.tally(), tally(0, 1, 2, 1));
-    }
-
-    #[test]
-    fn a_sender_that_goes_back_to_the_session_before_is_believed_after_eight_samples() {
-        let mut sequence = Sequence::new();
-        let seen = observe(&mut sequence, (0..1000).chain(0..10).chain(900..950));
-        assert_eq!(seen[1017], Observation::Reset(ResetKind::Jump));
-        let expected = Tally {
-            jumped: 1,
-            ..tally(0, 0, 0, 1)
-        };
-        assert_eq!((sequence.tally(), sequence.newest()), (expected, Some(949)));
-    }
-
-    #[test]
-    fn a_sample_with_a_number_out_of_nowhere_takes_two_others_with_it_at_most() {
-        let mut sequence = Sequence::new();
-        let seen = observe(&mut sequence, (0..1000).chain([1 << 30]).chain(1000..1010));
-        assert_eq!(seen[1000], Observation::Reset(ResetKind::Jump));
-        assert_eq!(seen[1003], Observation::Reset(ResetKind::Rewind));
-        let expected = Tally {
-            rewound: 1,
-            jumped: 1,
-            ..Tally::default()
-        };
-        assert_eq!((sequence.tally(), sequence.newest()), (expected, Some(1009)));
-    }
-}
+mod tests;
