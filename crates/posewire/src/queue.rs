@@ -260,9 +260,10 @@ impl<T> Shared<T> {
         oldest
     }
 
-    /// Unlocks, and wakes the consumer only if it waits.
+    /// Unlocks, and wakes the consumer only if it waits and there is something for it: woken for nothing, it would wait on
+    /// without saying so.
     fn release(&self, mut state: MutexGuard<'_, State<T>>) {
-        let wake = std::mem::take(&mut state.consumer_waits);
+        let wake = !state.items.is_empty() && std::mem::take(&mut state.consumer_waits);
         drop(state);
         if wake {
             self.arrived.notify_one();
@@ -317,6 +318,23 @@ mod tests {
         let mut taken = Vec::new();
         while consumer.drain(&mut taken, LONG).is_open() {}
         taken
+    }
+
+    #[test]
+    fn a_consumer_that_waits_while_nothing_is_pushed_hears_of_the_next_item() {
+        let (producer, consumer) = bounded(1, Policy::Lossless);
+        thread::scope(|scope| {
+            let waiting = scope.spawn(|| drain_all(&consumer));
+            while !producer.shared.lock().consumer_waits {
+                thread::yield_now();
+            }
+            producer.push_all(&mut Vec::new()).unwrap();
+            producer.push_all_or_drop(&mut Vec::new()).unwrap();
+            assert!(producer.shared.lock().consumer_waits);
+            producer.push_all(&mut vec![1, 2, 3]).unwrap();
+            drop(producer);
+            assert_eq!(waiting.join().unwrap(), [1, 2, 3]);
+        });
     }
 
     #[test]

@@ -190,7 +190,7 @@ impl Outlet {
                 batch.retain(wanted);
                 push(&feeder.producer, batch)
             } else {
-                let mut share = batch.iter().filter(|item| wanted(item)).cloned().collect();
+                let mut share: Vec<_> = batch.iter().filter(|item| wanted(item)).cloned().collect();
                 push(&feeder.producer, &mut share)
             };
             place += 1;
