@@ -4,6 +4,7 @@ mod demo;
 mod explain;
 mod inspect;
 mod monitor;
+mod record;
 mod replay;
 mod stream;
 
@@ -37,6 +38,7 @@ pub(crate) fn run(command: Command) -> anyhow::Result<End> {
     match command {
         Command::Stream(arguments) => stream::run(&arguments),
         Command::Monitor(arguments) => monitor::run(&arguments),
+        Command::Record(arguments) => record::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Replay(arguments) => replay::run(&arguments),

@@ -2,6 +2,7 @@
 
 mod faults;
 mod frame;
+mod recording;
 mod replay;
 mod server;
 mod statistics;
@@ -9,6 +10,7 @@ mod stream;
 mod subject;
 
 pub(crate) use frame::{FrameRecord, marker_name};
+pub(crate) use recording::{RecordingFileRecord, RecordingRecord};
 pub(crate) use replay::ReplayRecord;
 pub(crate) use server::ServerRecord;
 pub(crate) use statistics::{ReceiverRecord, statistics};

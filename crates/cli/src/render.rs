@@ -1,7 +1,9 @@
 //! Results as people read them.
 
+mod recording;
 mod server;
 
+pub(crate) use recording::{losses, recorded, recording, recording_line};
 pub(crate) use server::{delivery, kind, model, unknown_latencies};
 
 use crate::plain::{cut, printable};

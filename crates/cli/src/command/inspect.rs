@@ -2,6 +2,7 @@
 
 mod contents;
 mod input;
+mod recording;
 mod sections;
 mod survey;
 mod text;
@@ -18,6 +19,10 @@ use std::time::{Duration, Instant};
 use survey::Survey;
 
 pub(super) fn run(arguments: &Inspect) -> anyhow::Result<End> {
+    if recording::is_one(&arguments.file) {
+        return recording::run(arguments);
+    }
+    recording::refuse(arguments)?;
     let stop = context::stop_on_interrupt()?;
     let mut file = TakeFile::open(&arguments.file, arguments.salvage)?;
     let survey = read(&mut file, &stop);

@@ -119,6 +119,16 @@ impl RecordProgress {
     }
 }
 
+impl RecordedSource {
+    /// Samples that never came, as far as the source can tell, of all its streams.
+    pub fn missing(&self) -> u64 {
+        let statistics = self.statistics.iter();
+        statistics
+            .flat_map(|statistics| statistics.streams().map(|(_, stream)| stream.counters.missing))
+            .sum()
+    }
+}
+
 impl RecordSink {
     /// The longest that what has come is not in the file yet, on a machine that keeps up.
     pub const FLUSH_EVERY: Duration = Duration::from_millis(100);

@@ -1,0 +1,155 @@
+//! `posewire record`: every datagram of live sources, and the poses in them, into a file.
+
+use super::End;
+use crate::cli::Record;
+use crate::context::{self, Teller, end_progress, say, show_progress};
+use crate::error::Usage;
+use crate::{json, render};
+use posewire::endpoint::Endpoint;
+use posewire::sink::{RecordOptions, RecordProgress, RecordSink};
+use posewire::source::PlaybackOptions;
+use posewire::stop::Stop;
+use posewire::{Outcome, Session, Source};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+pub(super) fn run(arguments: &Record) -> anyhow::Result<End> {
+    let stop = context::stop_on_interrupt()?;
+    let sources = open(&arguments.urls)?;
+    let endpoints: Vec<_> = sources.iter().map(|source| source.endpoint().clone()).collect();
+    let options = RecordOptions {
+        split: arguments.split_size.map(|megabytes| megabytes * MEGABYTE),
+        overwrite: arguments.overwrite,
+    };
+    let sink = RecordSink::create(&arguments.output, &endpoints, options, stop.clone())?;
+    let progress = sink.progress();
+    for endpoint in &endpoints {
+        say(format_args!("recording {endpoint}"));
+    }
+    say(format_args!("  into {}", arguments.output.display()));
+    context::stop_after(&stop, arguments.duration);
+    let session = Session::start(sources, vec![Box::new(sink), Box::new(Teller::default())], stop.clone());
+    let begun = Instant::now();
+    watch(&session, &progress, arguments.json, &stop)?;
+    let outcome = session.wait();
+    end_progress();
+    let progress = read(&progress);
+    if arguments.json {
+        json::print(&json::RecordingRecord::new(&progress, begun.elapsed(), None))?;
+    } else {
+        say(render::recorded(&progress, begun.elapsed()));
+    }
+    end(&progress, outcome)
+}
+
+/// Opens live sources; what is no live source is not recorded.
+fn open(urls: &[String]) -> anyhow::Result<Vec<Source>> {
+    let mut sources = Vec::new();
+    for url in urls {
+        let endpoint: Endpoint = url.parse()?;
+        if let Endpoint::File { .. } = endpoint {
+            return Err(Usage {
+                problem: format!("expected a live stream to record, as mxtp://0.0.0.0:9763, found {endpoint}"),
+                help: format!("posewire inspect {endpoint} says what it holds, posewire stream sends it"),
+            }
+            .into());
+        }
+        sources.push(Source::open(&endpoint, &PlaybackOptions::default())?);
+    }
+    Ok(sources)
+}
+
+/// Shows how far the recording has come, and shouts when something is lost.
+fn watch(session: &Session, progress: &Mutex<RecordProgress>, json: bool, stop: &Stop) -> anyhow::Result<()> {
+    let begun = Instant::now();
+    let mut rate = Rate::new(begun);
+    let mut next = begun + EVERY;
+    let mut shouted = 0;
+    let mut quiet = Some(begun + QUIET);
+    while session.is_running() && !stop.wait(LOOK_EVERY) {
+        let progress = read(progress);
+        let now = Instant::now();
+        rate.note(now, progress.datagrams());
+        show_progress(render::recording_line(&progress, rate.per_second, begun.elapsed()));
+        if progress.lost() > shouted {
+            shouted = progress.lost();
+            end_progress();
+            say(render::losses(&progress));
+        }
+        if quiet.is_some_and(|quiet| now >= quiet) {
+            quiet = None;
+            end_progress();
+            tell_of_silence(&progress);
+        }
+        if json && now >= next {
+            next += EVERY;
+            let record = json::RecordingRecord::new(&progress, begun.elapsed(), Some(rate.per_second));
+            json::print(&record)?;
+        }
+    }
+    Ok(())
+}
+
+/// Says which sources nothing has come from.
+fn tell_of_silence(progress: &RecordProgress) {
+    for source in &progress.sources {
+        if source.datagrams == 0 && !matches!(source.endpoint, Endpoint::Synthetic(_)) {
+            say(format_args!(
+                "nothing has come from {} yet: posewire monitor {0} says what to check",
+                source.endpoint
+            ));
+        }
+    }
+}
+
+/// A recording that could not be written any more has lost data; it did not fail before it began.
+fn end(progress: &RecordProgress, outcome: posewire::Result<Outcome>) -> anyhow::Result<End> {
+    match (outcome, &progress.failure) {
+        (Err(error), Some(failure)) if error == *failure => {
+            say(format_args!("error: {error}"));
+            let help = error.help().unwrap_or_default();
+            say(format_args!(
+                "help: {help}; what was written can be read, posewire inspect --recover completes it"
+            ));
+            Ok(End::LostData)
+        }
+        (outcome, _) => {
+            outcome?;
+            Ok(End::with_lost(progress.lost()))
+        }
+    }
+}
+
+fn read(progress: &Mutex<RecordProgress>) -> RecordProgress {
+    progress.lock().unwrap_or_else(PoisonError::into_inner).clone()
+}
+
+/// Datagrams a second, over the last second or so.
+struct Rate {
+    since: Instant,
+    count: u64,
+    per_second: f64,
+}
+
+impl Rate {
+    fn new(now: Instant) -> Self {
+        Self {
+            since: now,
+            count: 0,
+            per_second: 0.0,
+        }
+    }
+
+    fn note(&mut self, now: Instant, count: u64) {
+        let elapsed = now.saturating_duration_since(self.since);
+        if elapsed >= EVERY {
+            self.per_second = (count - self.count) as f64 / elapsed.as_secs_f64();
+            (self.since, self.count) = (now, count);
+        }
+    }
+}
+
+const MEGABYTE: u64 = 1_000_000;
+const LOOK_EVERY: Duration = Duration::from_millis(100);
+const EVERY: Duration = Duration::from_secs(1);
+const QUIET: Duration = Duration::from_secs(3);
