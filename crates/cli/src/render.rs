@@ -10,7 +10,7 @@ use crate::plain::{cut, printable};
 use posewire::faults::FaultCounts;
 use posewire::sink::{ClientProgress, Progress, TargetProgress};
 use posewire::source::Preview;
-use posewire::stats::{Statistics, StreamStatistics, SubjectStatistics};
+use posewire::stats::{SampleCounts, Statistics, StreamStatistics, SubjectStatistics};
 use std::fmt::Write;
 use std::time::Duration;
 
@@ -146,6 +146,9 @@ fn subject_table(text: &mut String, of_subject: &SubjectStatistics) {
     text.push_str(TABLE_HEAD);
     for stream in &of_subject.streams {
         stream_row(text, stream);
+    }
+    if let Some(SampleCounts { partial, gone, .. }) = of_subject.samples.filter(|samples| !samples.are_whole()) {
+        _ = writeln!(text, "     of its samples {gone} are gone and {partial} lack a type");
     }
 }
 

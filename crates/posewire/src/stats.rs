@@ -136,6 +136,13 @@ pub struct Counters {
     pub quirks: Vec<(Quirk, u64)>,
 }
 
+impl SampleCounts {
+    /// Whether all of them came and lack nothing.
+    pub const fn are_whole(&self) -> bool {
+        self.partial == 0 && self.gone == 0
+    }
+}
+
 impl Counters {
     /// How often a new numbering began, however.
     pub const fn restarts(&self) -> u64 {
