@@ -1,5 +1,6 @@
 //! Streams over the loopback, from a source through real sockets to a source on the other side.
 
+mod captures;
 mod datagrams;
 mod ends;
 mod faults;

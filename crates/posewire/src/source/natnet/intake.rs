@@ -65,7 +65,7 @@ impl<'a> Intake<'a> {
         let mut options = ClientOptions::new(server, address.mode);
         options.version = address.version;
         if !time.is_live() {
-            options.lost_after = Duration::MAX;
+            options.lost_after = FOR_EVER;
         }
         // Which of the addresses that send to a group is the server's is for `Senders` to say.
         options.data_source = match address.mode {
@@ -376,6 +376,8 @@ impl<'a> Intake<'a> {
 }
 
 const FRAME_RATE: &str = "FrameRate";
+/// Longer than any capture, and short enough to be added up.
+const FOR_EVER: Duration = Duration::from_hours(24 * 365 * 10);
 const LISTEN_AFTER: Duration = Duration::from_secs(1);
 /// A stamp that is longer ago is of a clock that was set meanwhile.
 const LONGEST_WAIT: Duration = Duration::from_secs(1);

@@ -1,0 +1,294 @@
+//! Datagrams that were captured are sources, are replayed, and stay what they are from file to file.
+
+use crate::harness::{Gathered, Gatherer, PATIENCE, Receiver, open, seconds, types};
+use posewire::capture::{Capture, CaptureOptions, PcapWriter, Protocol, Survey, convert};
+use posewire::endpoint::Endpoint;
+use posewire::recording::{Writer, WriterOptions};
+use posewire::replay::{Replay, ReplayOptions, Replayed};
+use posewire::sink::{MxtpSink, NatNetSink, NatNetSinkOptions, RecordOptions, RecordSink};
+use posewire::source::PlaybackOptions;
+use posewire::stop::Stop;
+use posewire::{Datagram, Error, Session, Sink, Source, SourceId, Wire};
+use posewire_motion::Stamp;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// A receiver whose datagrams are recorded.
+struct Recorder {
+    endpoint: Endpoint,
+    gatherer: Gatherer,
+    session: Session,
+    stop: Stop,
+    path: PathBuf,
+}
+
+impl Recorder {
+    fn start(source: Source, path: &Path) -> Self {
+        let (stop, gatherer) = (Stop::new(), Gatherer::default());
+        let endpoint = source.endpoint().clone();
+        let sink = RecordSink::create(
+            path,
+            std::slice::from_ref(&endpoint),
+            RecordOptions::default(),
+            stop.clone(),
+        );
+        let sinks: Vec<Box<dyn Sink>> = vec![Box::new(sink.unwrap()), Box::new(gatherer.clone())];
+        Self {
+            session: Session::start([source], sinks, stop.clone()),
+            path: path.to_owned(),
+            endpoint,
+            gatherer,
+            stop,
+        }
+    }
+
+    /// Ends when so many frames have come, and gives the datagrams that were recorded.
+    fn finish(self, frames: usize) -> Vec<Datagram> {
+        self.gatherer.wait_until(|gathered| gathered.frames.len() >= frames);
+        self.stop.stop();
+        assert_eq!(self.session.wait().unwrap().dropped, 0);
+        datagrams(&self.path)
+    }
+}
+
+fn datagrams(path: &Path) -> Vec<Datagram> {
+    let capture = Capture::open(path, &CaptureOptions::default()).unwrap();
+    capture.map(|captured| captured.unwrap().datagram).collect()
+}
+
+fn payloads(datagrams: &[Datagram]) -> Vec<&[u8]> {
+    datagrams.iter().map(|datagram| &*datagram.bytes).collect()
+}
+
+/// Records a walker of a moment over MXTP.
+fn record_walk(endpoint: &str, path: &Path) -> Vec<Datagram> {
+    let recorder = Recorder::start(open(endpoint).unwrap(), path);
+    let sink = MxtpSink::open(std::slice::from_ref(&recorder.endpoint), types("02,12,13,25")).unwrap();
+    let progress = crate::harness::play("synthetic:walk?people=2", &seconds(0.3), sink);
+    recorder.finish(progress.frames as usize)
+}
+
+fn replay(path: &Path, to: &Endpoint, options: &ReplayOptions) -> Replayed {
+    let replay = Replay::open(path, std::slice::from_ref(to), options).unwrap();
+    let stop = Stop::new();
+    replay.wait_until_ready(&stop);
+    replay.run(&stop).unwrap()
+}
+
+/// Plays a capture as a source and gives what was read.
+fn play(path: &Path, options: &PlaybackOptions) -> Gathered {
+    let source = Source::open(&path.display().to_string().parse().unwrap(), options).unwrap();
+    assert!(!source.is_live());
+    let gatherer = Gatherer::default();
+    let session = Session::start([source], vec![Box::new(gatherer.clone())], Stop::new());
+    session.wait().unwrap();
+    gatherer.lock().clone()
+}
+
+fn faster() -> PlaybackOptions {
+    PlaybackOptions {
+        speed: 20.0,
+        ..PlaybackOptions::default()
+    }
+}
+
+#[test]
+fn a_recording_that_is_replayed_is_recorded_as_the_same_payloads_in_the_same_order() {
+    let folder = tempfile::tempdir().unwrap();
+    for endpoint in ["mxtp://127.0.0.1:0", "mxtp+tcp://127.0.0.1:0"] {
+        let [first, second] = ["first.mcap", "second.mcap"].map(|name| folder.path().join(name));
+        let sent = record_walk(endpoint, &first);
+        let recorder = Recorder::start(open(endpoint).unwrap(), &second);
+        let options = ReplayOptions {
+            speed: 4.0,
+            ..ReplayOptions::default()
+        };
+        let replayed = replay(&first, &recorder.endpoint, &options);
+        assert_eq!((replayed.lost(), replayed.damage), (0, None));
+        assert_eq!(replayed.datagrams, sent.len() as u64);
+        let again = recorder.finish(2 * 72);
+        assert_eq!(payloads(&again), payloads(&sent));
+        std::fs::remove_file(first).unwrap();
+        std::fs::remove_file(second).unwrap();
+    }
+}
+
+#[test]
+fn from_mcap_to_pcapng_and_back_keeps_every_datagram_and_its_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let [first, packets, last] = ["first.mcap", "take.pcapng", "last.mcap"].map(|name| folder.path().join(name));
+    let sent = record_walk("mxtp://127.0.0.1:0", &first);
+    assert_eq!(convert(&first, &packets, false).unwrap().datagrams, sent.len() as u64);
+    convert(&packets, &last, false).unwrap();
+    assert_eq!(datagrams(&packets), sent);
+    assert_eq!(datagrams(&last), sent);
+}
+
+#[test]
+fn a_recording_is_read_as_the_stream_was_with_the_times_of_the_day() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("take.mcap");
+    let recorder = Recorder::start(open("mxtp://127.0.0.1:0").unwrap(), &path);
+    let sink = MxtpSink::open(std::slice::from_ref(&recorder.endpoint), types("02,12,13,25")).unwrap();
+    crate::harness::play("synthetic:walk?people=2", &seconds(0.3), sink);
+    let gatherer = recorder.gatherer.clone();
+    recorder.finish(144);
+    let live = gatherer.lock().clone();
+    let played = play(&path, &faster());
+    played.assert_whole();
+    let frames = |gathered: &Gathered| -> Vec<_> {
+        let frames = gathered.frames.iter();
+        let mut frames: Vec<_> = frames
+            .map(|frame| (frame.subject.id, frame.sample, frame.received, frame.position.clone()))
+            .collect();
+        frames.sort_by_key(|frame| (frame.0, frame.1));
+        frames
+    };
+    assert_eq!(frames(&played), frames(&live));
+    assert_eq!(played.frames[0].subject.name, live.frames[0].subject.name);
+}
+
+#[test]
+fn a_part_of_one_source_is_played() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("take.pcapng");
+    let mut writer = PcapWriter::create(&path, false).unwrap();
+    for number in 0..20u8 {
+        let mut header = b"MXTP24".to_vec();
+        header.extend([0, 0, 0, number, 0x80, 1]);
+        header.resize(24, 0);
+        let datagram = Datagram {
+            wire: Wire::MxtpUdp,
+            from: ([10, 0, 0, 1], 50_000).into(),
+            to: ([10, 0, 0, 2 + number % 2], 9763).into(),
+            received: Stamp(i64::from(number) * 1_000_000),
+            bytes: header.into(),
+        };
+        writer.write(&datagram).unwrap();
+    }
+    writer.finish().unwrap();
+
+    let error = Source::open(&path.display().to_string().parse().unwrap(), &faster()).unwrap_err();
+    assert!(
+        matches!(&error, Error::CapturedSources { found, .. } if found.len() == 2),
+        "{error}"
+    );
+    assert!(error.is_usage());
+
+    let options = ReplayOptions {
+        speed: 100.0,
+        from: Duration::from_millis(4),
+        until: Some(Duration::from_millis(12)),
+        only: Some("10.0.0.3".to_owned()),
+        ..ReplayOptions::default()
+    };
+    let receiver = std::net::UdpSocket::bind("127.0.0.1:0").unwrap();
+    receiver.set_read_timeout(Some(PATIENCE)).unwrap();
+    let to = format!("mxtp://{}", receiver.local_addr().unwrap()).parse().unwrap();
+    assert_eq!(replay(&path, &to, &options).datagrams, 4);
+    let mut numbers = Vec::new();
+    for _ in 0..4 {
+        let mut buffer = [0; 100];
+        receiver.recv(&mut buffer).unwrap();
+        numbers.push(buffer[9]);
+    }
+    assert_eq!(numbers, [5, 7, 9, 11]);
+}
+
+#[test]
+fn a_loop_sends_the_same_bytes_again_until_it_is_stopped() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("take.mcap");
+    let sent = record_walk("mxtp://127.0.0.1:0", &path);
+    let receiver = Receiver::start("mxtp://127.0.0.1:0");
+    let options = ReplayOptions {
+        speed: 20.0,
+        looped: true,
+        ..ReplayOptions::default()
+    };
+    let replay = Replay::open(&path, std::slice::from_ref(&receiver.endpoint), &options).unwrap();
+    let stop = Stop::new();
+    let ending = stop.clone();
+    let running = std::thread::spawn(move || replay.run(&ending).unwrap());
+    receiver.gatherer.wait_until(|gathered| gathered.frames.len() > 3 * 144);
+    stop.stop();
+    let replayed = running.join().unwrap();
+    receiver.stop();
+    assert!(replayed.rounds > 3, "{replayed:?}");
+    assert!(replayed.datagrams > 3 * sent.len() as u64);
+}
+
+/// Records a walker over NatNet.
+fn record_natnet(path: &Path, frames: usize) -> Vec<Datagram> {
+    let Ok(Endpoint::NatNet(address)) = "natnet://127.0.0.1:0?data-port=0".parse() else {
+        panic!("it is NatNet")
+    };
+    let options = NatNetSinkOptions {
+        rate: Some(240.0),
+        ..NatNetSinkOptions::default()
+    };
+    let sink = NatNetSink::open(&address, options).unwrap();
+    let server = sink.progress().lock().unwrap().targets[0].endpoint.clone();
+    let stop = Stop::new();
+    let walkers = Source::open(&"synthetic:walk?people=2".parse().unwrap(), &PlaybackOptions::default()).unwrap();
+    let serving = Session::start([walkers], vec![Box::new(sink)], stop.clone());
+    let datagrams = Recorder::start(open(&server).unwrap(), path).finish(frames);
+    stop.stop();
+    serving.wait().unwrap();
+    datagrams
+}
+
+#[test]
+fn a_natnet_recording_is_read_from_wherever_it_begins() {
+    let folder = tempfile::tempdir().unwrap();
+    let [whole, end] = ["whole.mcap", "end.mcap"].map(|name| folder.path().join(name));
+    let sent = record_natnet(&whole, 200);
+    let survey = Survey::of(&whole, &CaptureOptions::default()).unwrap();
+    assert_eq!(survey.sources[0].protocol, Some(Protocol::NatNet));
+    let played = play(&whole, &faster());
+    assert!(played.frames.len() >= 200);
+    let named = played.frames.iter().filter(|frame| frame.subject.name == "Ada").count();
+    assert_eq!(named, played.frames.len() / 2);
+    assert_eq!(played.frames[0].subject.rate, Some(240.0));
+    assert_eq!(played.server().name, "Motive");
+
+    // Only frames, as of a capture that began later.
+    let is_frame = |datagram: &&Datagram| datagram.bytes[0] == 7;
+    let mut writer = Writer::create(&end, &["natnet://127.0.0.1".to_owned()], WriterOptions::default()).unwrap();
+    for datagram in sent.iter().filter(is_frame) {
+        writer.datagram(SourceId(0), &Arc::new(datagram.clone())).unwrap();
+    }
+    writer.finish().unwrap();
+    let blind = play(&end, &faster());
+    assert_eq!(blind.frames.len(), played.frames.len());
+}
+
+#[test]
+fn a_natnet_recording_is_served_to_clients_as_its_server_did() {
+    let folder = tempfile::tempdir().unwrap();
+    let [first, second] = ["first.mcap", "second.mcap"].map(|name| folder.path().join(name));
+    let sent = record_natnet(&first, 400);
+    let to = "natnet://127.0.0.1:0?data-port=0".parse().unwrap();
+    let replay = Replay::open(&first, &[to], &ReplayOptions::default()).unwrap();
+    let server = replay.progress().lock().unwrap().targets[0].endpoint.clone();
+    let recorder = Recorder::start(open(&server).unwrap(), &second);
+    let stop = Stop::new();
+    replay.wait_until_ready(&stop);
+    let replayed = replay.run(&stop).unwrap();
+    assert_eq!(replayed.lost(), 0);
+    let gatherer = recorder.gatherer.clone();
+    let again = recorder.finish(2 * replayed.targets[0].datagrams as usize);
+    let frames = |datagrams: &[Datagram]| -> Vec<Vec<u8>> {
+        let frames = datagrams.iter().filter(|datagram| datagram.bytes[0] == 7);
+        frames.map(|datagram| datagram.bytes.to_vec()).collect()
+    };
+    assert_eq!(frames(&again), frames(&sent));
+    assert!(
+        gatherer
+            .lock()
+            .frames
+            .iter()
+            .all(|frame| !frame.subject.name.is_empty())
+    );
+}
