@@ -9,14 +9,14 @@ use posewire::{Datagram, Item, Result, Session, Sink, Source, SourceId, Wants, W
 use std::net::UdpSocket;
 use std::sync::{Arc, Condvar, Mutex};
 
-type Arrived = Vec<(SourceId, Arc<Datagram>)>;
+pub(crate) type Arrived = Vec<(SourceId, Arc<Datagram>)>;
 
 /// Keeps every datagram.
 #[derive(Clone, Default)]
-struct Raw(Arc<(Mutex<Arrived>, Condvar)>);
+pub(crate) struct Raw(Arc<(Mutex<Arrived>, Condvar)>);
 
 impl Raw {
-    fn wait_until(&self, enough: impl Fn(&Arrived) -> bool) -> Arrived {
+    pub(crate) fn wait_until(&self, enough: impl Fn(&Arrived) -> bool) -> Arrived {
         let arrived = self.0.0.lock().unwrap();
         let waited = self
             .0

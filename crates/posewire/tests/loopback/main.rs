@@ -7,6 +7,7 @@ mod faults;
 mod harness;
 mod natnet;
 mod natnet_sink;
+mod recording;
 mod reference;
 mod transports;
 mod walkers;
