@@ -281,7 +281,9 @@ impl Error {
             Self::Read { kind, .. } => read_help(*kind),
             Self::Take { error, .. } => Some(take_help(error).into()),
             Self::NotACapture { .. } => Some("record one: posewire record mxtp://0.0.0.0:9763 -o take.mcap".into()),
-            Self::NoDatagrams { .. } => Some("posewire explain FILE --protocol mxtp takes every datagram for MXTP".into()),
+            Self::NoDatagrams { .. } => {
+                Some("posewire explain FILE --protocol mxtp takes every datagram for MXTP".into())
+            }
             Self::CapturedSources { .. } => Some("choose one by number or name, as in --only 0".into()),
             Self::CaptureRate { .. } => Some("leave --rate out; --speed plays it faster or slower".into()),
             Self::TooLongForIp { .. } => None,
