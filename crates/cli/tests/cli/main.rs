@@ -11,6 +11,7 @@ mod natnet_monitor;
 #[cfg(unix)]
 mod page;
 mod program;
+mod record;
 mod refusals;
 mod stream;
 mod takes;

@@ -1,0 +1,205 @@
+//! `posewire record`, and `posewire inspect` of what it wrote.
+
+use crate::program::{Ended, assert_documented, assert_fits, objects, posewire};
+use posewire::recording::Survey;
+use std::fs;
+use std::io::{BufRead, BufReader, Read};
+use std::net::UdpSocket;
+use std::path::Path;
+use std::process::{Child, ChildStderr, Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// `posewire record`, recording.
+struct Recorder {
+    port: u16,
+    child: Child,
+    err: BufReader<ChildStderr>,
+}
+
+impl Recorder {
+    /// Records whatever comes to a port of its own.
+    fn start(folder: &Path, arguments: &[&str]) -> Self {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_posewire"));
+        command.args(["record", "mxtp://127.0.0.1:0"]).args(arguments);
+        Self::run(folder, command)
+    }
+
+    fn run(folder: &Path, mut command: Command) -> Self {
+        let mut child = command
+            .current_dir(folder)
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut err = BufReader::new(child.stderr.take().unwrap());
+        let (mut line, mut into) = (String::new(), String::new());
+        err.read_line(&mut line).unwrap();
+        err.read_line(&mut into).unwrap();
+        let port = line.trim_end().rsplit_once(':').and_then(|(_, port)| port.parse().ok());
+        Self {
+            port: port.unwrap_or_else(|| panic!("{line}")),
+            child,
+            err,
+        }
+    }
+
+    #[cfg(unix)]
+    fn interrupt(&self) {
+        let process = self.child.id().to_string();
+        let sent = Command::new("kill").args(["-INT", &process]).status();
+        assert!(sent.unwrap().success());
+    }
+
+    fn end(mut self) -> Ended {
+        let (mut err, mut out) = (String::new(), String::new());
+        self.child.stdout.take().unwrap().read_to_string(&mut out).unwrap();
+        self.err.read_to_string(&mut err).unwrap();
+        Ended {
+            code: self.child.wait().unwrap().code(),
+            out,
+            err,
+        }
+    }
+}
+
+/// Sends numbers until something is true; gives when each was sent.
+fn send_until(port: u16, length: usize, mut enough: impl FnMut(usize) -> bool) -> Vec<Instant> {
+    let sender = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let begun = Instant::now();
+    let mut sent = Vec::new();
+    while !enough(sent.len()) {
+        // A pace that a real stream has: to absolute deadlines.
+        let due = begun + sent.len() as u32 * Duration::from_micros(500);
+        std::thread::sleep(due.saturating_duration_since(Instant::now()));
+        let mut bytes = (sent.len() as u64).to_le_bytes().to_vec();
+        bytes.resize(length, 0);
+        sent.push(Instant::now());
+        // Nobody is there any more when the recorder has been killed.
+        let _ = sender.send_to(&bytes, ("127.0.0.1", port));
+    }
+    sent
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_finishes_a_recording_and_json_tells_of_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let recorder = Recorder::start(folder.path(), &["-o", "take.mcap", "--json"]);
+    let begun = Instant::now();
+    send_until(recorder.port, 100, |_| begun.elapsed() > Duration::from_millis(1300));
+    recorder.interrupt();
+    let ended = recorder.end();
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    let told = objects(&ended.out, "recording");
+    assert!(told.len() >= 2, "{}", ended.out);
+    for object in &told {
+        assert_documented(object, "recording", &[]);
+    }
+    let last = told.last().unwrap();
+    assert_eq!((&last["ended"], &last["lost"]), (&true.into(), &0.into()));
+
+    let seen = posewire(folder.path(), &["inspect", "take.mcap", "--json"], b"");
+    let object = objects(&seen.out, "mcap").remove(0);
+    assert_documented(&object, "mcap", &[]);
+    assert_eq!(object["complete"], true);
+    assert_eq!(object["sources"][0]["senders"][0]["datagrams"], last["datagrams"]);
+    let text = posewire(folder.path(), &["inspect", "take.mcap"], b"");
+    assert_fits(&text.out);
+    assert!(text.out.contains("mxtp/udp"), "{}", text.out);
+}
+
+#[test]
+fn a_recorder_that_is_killed_loses_no_more_than_a_quarter_of_a_second() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut latest = Duration::ZERO;
+    for round in 0..20_u64 {
+        let (cut, whole) = (format!("cut-{round}.mcap"), format!("whole-{round}.mcap"));
+        let mut recorder = Recorder::start(folder.path(), &["-o", &cut]);
+        // From a tenth to three quarters of a second, differently each time.
+        let life = Duration::from_millis(100 + round * 7919 % 650);
+        let begun = Instant::now();
+        let sent = send_until(recorder.port, 1200, |_| begun.elapsed() >= life);
+        let killed = Instant::now();
+        recorder.child.kill().unwrap();
+        recorder.child.wait().unwrap();
+
+        let recovering = ["inspect", &cut, "--recover", "-o", &whole, "--json"];
+        let seen = posewire(folder.path(), &recovering, b"");
+        assert_eq!(seen.code, Some(0), "{}", seen.err);
+        assert!(Survey::of(&folder.path().join(&whole)).unwrap().complete);
+        let object = objects(&seen.out, "mcap").remove(0);
+        let found = object["sources"][0]["senders"][0]["datagrams"].as_u64().unwrap_or(0);
+        let first_lost = sent.get(found as usize).copied().unwrap_or(killed);
+        latest = latest.max(killed.saturating_duration_since(first_lost));
+    }
+    println!("at most {latest:?} were lost");
+    assert!(latest <= Duration::from_millis(250), "{latest:?} were lost");
+}
+
+/// A file size limit stands for a full disk: the system refuses to write beyond it.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_ends_the_recording_loudly_and_what_was_written_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = Command::new("sh");
+    let program = env!("CARGO_BIN_EXE_posewire");
+    let limited = format!("trap '' XFSZ; ulimit -f 2000; exec '{program}' record mxtp://127.0.0.1:0 -o take.mcap");
+    command.args(["-c", &limited]);
+    let mut recorder = Recorder::run(folder.path(), command);
+    let begun = Instant::now();
+    send_until(recorder.port, 1200, |_| {
+        assert!(begun.elapsed() < Duration::from_mins(1), "it goes on recording");
+        recorder.child.try_wait().unwrap().is_some()
+    });
+    let ended = recorder.end();
+    assert_eq!(ended.code, Some(3), "{}", ended.err);
+    assert!(ended.err.contains("could not be written"), "{}", ended.err);
+    assert!(ended.err.contains("error: cannot write to take.mcap"), "{}", ended.err);
+
+    let seen = posewire(folder.path(), &["inspect", "take.mcap", "--recover", "--json"], b"");
+    assert_eq!(seen.code, Some(0), "{}", seen.err);
+    let object = objects(&seen.out, "mcap").remove(0);
+    assert!(object["sources"][0]["senders"][0]["datagrams"].as_u64().unwrap() > 50);
+}
+
+#[test]
+fn what_cannot_be_recorded_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("there.mcap"), "precious").unwrap();
+    for (arguments, code, error, help) in [
+        (
+            &["record", "mxtp://127.0.0.1:0", "-o", "there.mcap"][..],
+            1,
+            "there.mcap is there already",
+            "--overwrite",
+        ),
+        (
+            &["record", "take.mvnx", "-o", "new.mcap"],
+            2,
+            "expected a live stream to record",
+            "posewire inspect take.mvnx",
+        ),
+        (
+            &["record", "mxtp://127.0.0.1:0", "-o", "no/where.mcap"],
+            1,
+            "no/where.mcap",
+            "help",
+        ),
+        (
+            &["inspect", "there.mcap", "--recover"],
+            2,
+            "--recover is for recordings",
+            "--salvage",
+        ),
+    ] {
+        let ended = posewire(folder.path(), arguments, b"");
+        assert_eq!(ended.code, Some(code), "{arguments:?}: {}", ended.err);
+        assert!(
+            ended.err.contains(error) && ended.err.contains(help),
+            "{arguments:?}: {}",
+            ended.err
+        );
+    }
+    assert_eq!(fs::read(folder.path().join("there.mcap")).unwrap(), b"precious");
+}
