@@ -292,7 +292,7 @@ Examples:
   posewire replay take.mcap --to mxtp://10.0.0.5 --faults loss=1%,seed=7
 
 MXTP goes to MXTP targets, NatNet frames to NatNet targets. In a loop the same bytes come again, so that
-receivers see sample numbers start over; posewire stream plays a capture with numbers that go on.")]
+receivers see sample numbers start over.")]
 pub(crate) struct Replay {
     /// A recording (.mcap), or packets captured with tcpdump or Wireshark (.pcap, .pcapng).
     pub(crate) file: PathBuf,
@@ -498,6 +498,7 @@ mod tests {
             ("README", include_str!("../../../README.md"), 10),
             ("faults", include_str!("../../../docs/faults.md"), 3),
             ("natnet", include_str!("../../../docs/natnet.md"), 14),
+            ("replaying", include_str!("../../../docs/replaying.md"), 6),
             ("troubleshooting", include_str!("../../../docs/troubleshooting.md"), 2),
         ] {
             let commands = commands(text);

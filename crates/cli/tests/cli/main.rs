@@ -13,5 +13,6 @@ mod page;
 mod program;
 mod record;
 mod refusals;
+mod replay;
 mod stream;
 mod takes;

@@ -1,0 +1,138 @@
+//! `posewire replay`, and captures as sources of the other verbs.
+
+use crate::program::{assert_documented, objects, posewire};
+use posewire::capture::PcapWriter;
+use posewire::{Datagram, Wire};
+use posewire_motion::Stamp;
+use posewire_mxtp::body::{Body, TimeCode};
+use posewire_mxtp::{Header, MessageType};
+use std::net::UdpSocket;
+use std::path::Path;
+use std::time::Duration;
+
+/// A capture of timecodes of one sample each, in turn to so many addresses.
+fn write_capture(path: &Path, count: u32, receivers: u32) -> Vec<Vec<u8>> {
+    let mut writer = PcapWriter::create(path, false).unwrap();
+    let mut written = Vec::new();
+    for number in 0..count {
+        let header = Header::rev_j(MessageType::TIME_CODE, number, number * 4);
+        let body = Body::TimeCode(TimeCode::from_millis_of_day(number * 4));
+        let mut bytes = Vec::new();
+        let datagram = posewire_mxtp::Datagram::new(header, body).unwrap();
+        datagram.encode(&mut bytes);
+        written.push(bytes.clone());
+        let datagram = Datagram {
+            wire: Wire::MxtpUdp,
+            from: ([10, 0, 0, 1], 50_000).into(),
+            to: ([10, 0, 0, 2 + (number % receivers) as u8], 9763).into(),
+            received: Stamp(1_700_000_000_000_000_000 + i64::from(number) * 4_000_000),
+            bytes: bytes.into(),
+        };
+        writer.write(&datagram).unwrap();
+    }
+    writer.finish().unwrap();
+    written
+}
+
+#[test]
+fn every_datagram_arrives_as_it_was_captured() {
+    let folder = tempfile::tempdir().unwrap();
+    let written = write_capture(&folder.path().join("take.pcapng"), 50, 2);
+    let receiver = UdpSocket::bind("127.0.0.1:0").unwrap();
+    receiver.set_read_timeout(Some(Duration::from_mins(1))).unwrap();
+    let to = format!("mxtp://{}", receiver.local_addr().unwrap());
+    let ended = posewire(folder.path(), &["replay", "take.pcapng", "--to", &to, "--json"], b"");
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    let mut buffer = [0; 1000];
+    for expected in &written {
+        let length = receiver.recv(&mut buffer).unwrap();
+        assert_eq!(&buffer[..length], expected);
+    }
+    let report = &objects(&ended.out, "replay")[0];
+    assert_documented(report, "replay", &[]);
+    assert_eq!((&report["datagrams"], &report["rounds"]), (&50.into(), &1.into()));
+    assert!(
+        ended.err.contains("0 mxtp://10.0.0.2:9763: 25 datagrams in 0.192 s"),
+        "{}",
+        ended.err
+    );
+}
+
+#[test]
+fn a_capture_is_explained_datagram_by_datagram() {
+    let folder = tempfile::tempdir().unwrap();
+    write_capture(&folder.path().join("take.pcapng"), 3, 1);
+    let ended = posewire(folder.path(), &["explain", "take.pcapng", "--json"], b"");
+    let datagrams = objects(&ended.out, "datagram");
+    assert_eq!(datagrams.len(), 3);
+    assert_documented(&datagrams[0], "datagram", &[]);
+    let captured = &datagrams[2]["captured"];
+    assert_eq!(captured["from"], "10.0.0.1:50000");
+    assert_eq!(captured["received_ns"], 1_700_000_000_008_000_000_i64);
+    let ended = posewire(folder.path(), &["explain", "take.pcapng", "--summary"], b"");
+    let lines: Vec<_> = ended.out.lines().collect();
+    assert!(
+        lines[1].starts_with("    0.004000  10.0.0.1:50000 > 10.0.0.2:9763  MXTP25"),
+        "{}",
+        lines[1]
+    );
+    let ended = posewire(folder.path(), &["explain", "take.pcapng"], b"");
+    assert!(
+        ended.out.starts_with("+0.000000 s, at 1700000000.000000000, "),
+        "{}",
+        ended.out
+    );
+}
+
+#[test]
+fn a_capture_is_monitored_as_if_it_came_now() {
+    let folder = tempfile::tempdir().unwrap();
+    write_capture(&folder.path().join("take.pcapng"), 100, 1);
+    let arguments = ["monitor", "take.pcapng", "--json", "--speed", "10"];
+    let ended = posewire(folder.path(), &arguments, b"");
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    let last = objects(&ended.out, "statistics").pop().unwrap();
+    assert_eq!((&last["received"], &last["missing"]), (&100.into(), &0.into()));
+    assert_eq!(last["rate_hz"], 250.0);
+}
+
+#[test]
+fn one_of_several_sources_is_to_be_chosen() {
+    let folder = tempfile::tempdir().unwrap();
+    write_capture(&folder.path().join("take.pcapng"), 4, 2);
+    let ended = posewire(folder.path(), &["monitor", "take.pcapng", "--plain"], b"");
+    assert_eq!(ended.code, Some(2));
+    let found = "found 0 mxtp://10.0.0.2:9763, 1 mxtp://10.0.0.3:9763";
+    assert!(
+        ended.err.contains(found) && ended.err.contains("help: choose one"),
+        "{}",
+        ended.err
+    );
+    let arguments = ["monitor", "take.pcapng", "--json", "--only", "1"];
+    let ended = posewire(folder.path(), &arguments, b"");
+    assert_eq!(objects(&ended.out, "statistics").pop().unwrap()["received"], 2);
+}
+
+#[test]
+fn what_is_no_capture_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("take.pcapng"), "not at all").unwrap();
+    let arguments = ["replay", "take.pcapng", "--to", "mxtp://127.0.0.1"];
+    let ended = posewire(folder.path(), &arguments, b"");
+    assert_eq!(ended.code, Some(1));
+    assert!(
+        ended
+            .err
+            .contains("expected a pcap, pcapng or MCAP file, found \"not at a\""),
+        "{}",
+        ended.err
+    );
+    let arguments = ["monitor", "mxtp://127.0.0.1:0", "--only", "0"];
+    let ended = posewire(folder.path(), &arguments, b"");
+    assert_eq!(ended.code, Some(2));
+    assert!(
+        ended.err.contains("--only is for recordings and captures"),
+        "{}",
+        ended.err
+    );
+}
