@@ -137,3 +137,65 @@ impl Playlist {
 /// Datagrams whose gaps say how the first of a new round follows: a sample may be many datagrams.
 const LOOKED_BACK: usize = 16;
 const LONGEST_SEAM: Duration = Duration::from_secs(1);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::capture::PcapWriter;
+    use crate::{Datagram, Wire};
+
+    /// When datagrams are due that came at these milliseconds, up to so many of them.
+    fn dues(times: &[i64], selection: Selection, most: usize) -> Vec<u64> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("take.pcapng");
+        let mut writer = PcapWriter::create(&path, false).unwrap();
+        for time in times {
+            let datagram = Datagram {
+                wire: Wire::MxtpUdp,
+                from: ([10, 0, 0, 1], 1).into(),
+                to: ([10, 0, 0, 2], 9763).into(),
+                received: Stamp(5_000_000_000 + time * 1_000_000),
+                bytes: [].into(),
+            };
+            writer.write(&datagram).unwrap();
+        }
+        writer.finish().unwrap();
+        let mut playlist = Playlist::open(&path, &CaptureOptions::default(), selection).unwrap();
+        let mut dues = Vec::new();
+        while let Some(due) = playlist.next().unwrap().filter(|_| dues.len() < most) {
+            dues.push(due.offset.as_millis() as u64);
+        }
+        dues
+    }
+
+    #[test]
+    fn each_is_due_as_long_after_the_first_as_it_came() {
+        assert_eq!(dues(&[0, 4, 8, 500], Selection::default(), 9), [0, 4, 8, 500]);
+    }
+
+    #[test]
+    fn where_time_goes_back_nothing_waits() {
+        assert_eq!(dues(&[0, 10, 4, 5, 12], Selection::default(), 9), [0, 10, 10, 10, 12]);
+    }
+
+    #[test]
+    fn a_part_begins_at_once() {
+        let selection = Selection {
+            from: Duration::from_millis(8),
+            until: Some(Duration::from_millis(16)),
+            ..Selection::default()
+        };
+        assert_eq!(dues(&[0, 4, 8, 12, 16, 20], selection, 9), [0, 4]);
+    }
+
+    #[test]
+    fn a_round_follows_after_the_longest_of_the_last_gaps() {
+        let looped = || Selection {
+            looped: true,
+            ..Selection::default()
+        };
+        assert_eq!(dues(&[0, 0, 4, 4], looped(), 9), [0, 0, 4, 4, 8, 8, 12, 12, 16]);
+        assert_eq!(dues(&[0, 60_000], looped(), 4), [0, 60_000, 61_000, 121_000]);
+        assert_eq!(dues(&[7], looped(), 3), [0, 1000, 2000]);
+    }
+}

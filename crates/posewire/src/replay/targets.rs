@@ -34,7 +34,7 @@ impl Targets {
                 let server = RawServer::open(path, options, source, address)?;
                 Ok(Target::NatNet(Box::new(server)))
             }
-            endpoint => MxtpTarget::open(endpoint).map(Target::Mxtp),
+            endpoint => MxtpTarget::open_for_datagrams(endpoint).map(Target::Mxtp),
         };
         Ok(Self {
             targets: targets.iter().map(open).collect::<Result<_>>()?,

@@ -14,14 +14,24 @@ pub(crate) enum Target {
 }
 
 impl Target {
+    /// A target that is sent whole samples.
     pub(crate) fn open(endpoint: &Endpoint) -> Result<Self> {
+        Self::open_with(endpoint, QUEUED_SAMPLES)
+    }
+
+    /// A target that is sent datagrams one by one.
+    pub(crate) fn open_for_datagrams(endpoint: &Endpoint) -> Result<Self> {
+        Self::open_with(endpoint, QUEUED_DATAGRAMS)
+    }
+
+    fn open_with(endpoint: &Endpoint, queued: usize) -> Result<Self> {
         match endpoint {
             Endpoint::MxtpUdp(address) => Ok(Self::Udp {
                 endpoint: endpoint.to_string(),
                 sender: UdpSender::open(address)?,
             }),
             Endpoint::MxtpTcp(address) => {
-                let target = TcpTarget::open(address)?;
+                let target = TcpTarget::open(address, queued)?;
                 let port = target.port().unwrap_or(address.port);
                 let endpoint = Endpoint::MxtpTcp(TcpAddress {
                     port,
@@ -92,3 +102,8 @@ impl Target {
         }
     }
 }
+
+/// About a second of a 240 Hz stream.
+const QUEUED_SAMPLES: usize = 256;
+/// About a second of 16 people in five types at 240 Hz.
+const QUEUED_DATAGRAMS: usize = 16 << 10;

@@ -29,6 +29,8 @@ struct Sample {
 struct Peers {
     /// Whether we connect: then what comes while the peer is away is a loss. A peer that came to us may leave.
     expected: bool,
+    /// What each peer's queue holds.
+    queued: usize,
     /// No new ones are taken; those that are there get what is queued until the limit.
     ending: Stop,
     queues: Mutex<Vec<Producer<Sample>>>,
@@ -38,9 +40,10 @@ struct Peers {
 }
 
 impl TcpTarget {
-    pub(super) fn open(address: &TcpAddress) -> Result<Self> {
+    /// Each peer's queue holds so many of what [`send`](Self::send) is given.
+    pub(super) fn open(address: &TcpAddress, queued: usize) -> Result<Self> {
         let listens = address.mode == Some(TcpMode::Listen);
-        let peers = Arc::new(Peers::new(!listens));
+        let peers = Arc::new(Peers::new(!listens, queued));
         let serving = Arc::clone(&peers);
         if listens {
             let incoming = net::listen(address)?;
@@ -114,9 +117,10 @@ impl TcpTarget {
 }
 
 impl Peers {
-    fn new(expected: bool) -> Self {
+    fn new(expected: bool, queued: usize) -> Self {
         Self {
             expected,
+            queued,
             ending: Stop::new(),
             queues: Mutex::default(),
             open: AtomicUsize::new(0),
@@ -138,7 +142,7 @@ impl Peers {
 
     /// A queue for a new peer.
     fn welcome(&self) -> Consumer<Sample> {
-        let (producer, consumer) = bounded(QUEUED_SAMPLES, Policy::Newest);
+        let (producer, consumer) = bounded(self.queued, Policy::Newest);
         let mut queues = self.lock();
         if self.ending.is_stopped() {
             producer.close();
@@ -243,8 +247,6 @@ fn accept_peers(incoming: &TcpIncoming, peers: &Arc<Peers>) {
     }
 }
 
-/// About a second of a 240 Hz stream.
-const QUEUED_SAMPLES: usize = 256;
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(5);
 /// An attempt cannot be cut short, so the end of the stream may have to wait for one.
 const RECONNECT_TIMEOUT: Duration = Duration::from_secs(1);
