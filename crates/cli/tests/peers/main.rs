@@ -3,5 +3,6 @@
 mod captures;
 mod natnet;
 mod python;
+mod recording;
 mod streaming;
 mod takes;
