@@ -35,6 +35,18 @@ fn parts_make_a_whole_in_any_order() {
 }
 
 #[test]
+fn parts_are_held_until_their_message_is_whole() {
+    let (mut receiver, mut sender) = (Receiver::new(), sender());
+    receiver.feed_samples(&mut sender, 0..2);
+    let parts = sender.sample(2);
+    let held = parts.iter().take(2).map(<[u8]>::len).sum::<usize>();
+    receiver.feed(parts.iter().take(2));
+    assert_eq!(receiver.assembler.buffered(), held);
+    receiver.feed(parts.iter().skip(2));
+    assert_eq!(receiver.assembler.buffered(), 0);
+}
+
+#[test]
 fn parts_of_samples_may_mix() {
     let (mut receiver, mut sender) = (Receiver::new(), sender());
     receiver.feed_samples(&mut sender, 0..2);
