@@ -78,13 +78,10 @@ impl Tally {
         }
         let mut counted = |character| counted.remove(&character).unwrap_or_default();
         let samples: BTreeMap<_, _> = assembler.samples().collect();
-        let subjects = self
-            .subjects
-            .iter_mut()
-            .map(|(character, heard)| SubjectStatistics {
-                samples: samples.get(character).map(Into::into),
-                ..heard.report(counted(*character), ended)
-            });
+        let subjects = self.subjects.iter_mut().map(|(character, heard)| SubjectStatistics {
+            samples: samples.get(character).map(Into::into),
+            ..heard.report(counted(*character), ended)
+        });
         Statistics {
             at: edge.now,
             elapsed: edge.now.since(self.started),
