@@ -29,6 +29,8 @@ struct Search {
     /// Whether the client's questions were captured too, and the last one was for the rate.
     asks: Option<bool>,
     frames: Vec<Box<[u8]>>,
+    /// Whether a frame went to a group.
+    to_group: bool,
 }
 
 impl Opening {
@@ -68,6 +70,7 @@ impl Search {
             }
             MessageId::FRAME if self.frames.len() < TRIED => {
                 self.server.get_or_insert(datagram.from);
+                self.to_group |= datagram.to.ip().is_multicast();
                 self.frames.push(datagram.bytes);
             }
             _ if is_asked(&datagram.bytes) => {
@@ -86,14 +89,16 @@ impl Search {
         let named = source.name.parse();
         let address = match named {
             Ok(Endpoint::NatNet(address)) => address,
-            _ => NatNetAddress::new(Host::Address(server.ip()), server.port()),
+            _ => NatNetAddress {
+                mode: if self.to_group { Mode::Multicast } else { Mode::Unicast },
+                ..NatNetAddress::new(Host::Address(server.ip()), server.port())
+            },
         };
         let info = self.server_info();
         let packets = info.into_iter().chain(self.model).chain(self.rate).collect();
         Opening {
+            // Which version was asked for does not say which one came.
             address: NatNetAddress {
-                // Whose frames they are is known, and they are taken from wherever they came.
-                mode: Mode::Multicast,
                 version: None,
                 ..address
             },

@@ -100,7 +100,7 @@ impl Playlist {
         let at = captured.datagram.received;
         let is_wanted = self.selection.source.is_none_or(|source| source == captured.source);
         if captured.is_repeated {
-            // A copy from before this file: needed to understand it, unless its beginning is left out anyway.
+            // A copy from before this file, without which it cannot be understood: at once, whatever part is played.
             return is_wanted.then_some(self.due);
         }
         let place = at.since(*self.origin.get_or_insert(at));

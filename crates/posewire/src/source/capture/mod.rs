@@ -65,7 +65,9 @@ impl CapturePlayback {
                 found: "none in that time".to_owned(),
             });
         };
-        let start = next.captured.datagram.received;
+        // A copy from a file before is older than what is played.
+        let own = self.source.span.filter(|_| next.captured.is_repeated);
+        let start = own.map_or(next.captured.datagram.received, |(first, _)| first);
         let mut pacer = Pacer::new(Instant::now(), self.options.speed, stop.clone())?;
         let mut decoder = Decoder::new(start, self.opening.as_ref(), outlet);
         let mut past = Duration::ZERO;

@@ -54,7 +54,8 @@ impl<'a> Intake<'a> {
         Self::at(Timeline::live(), outlet, address, server)
     }
 
-    /// Goes by this time. What is played loses no connection, however long nothing comes.
+    /// Goes by this time. What is played loses no connection, however long nothing comes, and is all of one server, whichever
+    /// way its frames came.
     pub(in crate::source) fn at(
         time: Timeline,
         outlet: &'a mut Outlet,
@@ -62,13 +63,18 @@ impl<'a> Intake<'a> {
         server: SocketAddr,
     ) -> Self {
         let told = time.steady();
-        let mut options = ClientOptions::new(server, address.mode);
+        let (listens, senders) = if time.is_live() {
+            (address.mode, address.mode)
+        } else {
+            (Mode::Multicast, Mode::Unicast)
+        };
+        let mut options = ClientOptions::new(server, listens);
         options.version = address.version;
         if !time.is_live() {
             options.lost_after = FOR_EVER;
         }
         // Which of the addresses that send to a group is the server's is for `Senders` to say.
-        options.data_source = match address.mode {
+        options.data_source = match listens {
             Mode::Unicast => DataSource::Server,
             Mode::Multicast => DataSource::Any,
         };
@@ -82,7 +88,7 @@ impl<'a> Intake<'a> {
             client: Client::new(told, options),
             naming: Naming::new(settings),
             tally: NatNetTally::new(time.now()),
-            senders: Senders::new(address.mode, server.ip()),
+            senders: Senders::new(senders, server.ip()),
             server,
             time,
             due: None,
