@@ -43,6 +43,7 @@ struct SourceRecord {
 #[derive(Serialize)]
 struct SubjectRecord<'a> {
     source: u16,
+    subject: u32,
     name: &'a str,
     frames: u64,
 }
@@ -87,6 +88,7 @@ fn source((number, source): (usize, &RecordedSource)) -> SourceRecord {
 fn subject(subject: &RecordedSubject) -> SubjectRecord<'_> {
     SubjectRecord {
         source: subject.source.0,
+        subject: subject.id,
         name: &subject.name,
         frames: subject.frames,
     }
@@ -130,6 +132,7 @@ struct SenderFileRecord<'a> {
 #[derive(Serialize)]
 struct SubjectFileRecord<'a> {
     source: u16,
+    subject: u32,
     name: &'a str,
     frames: u64,
     duration_s: f64,
@@ -177,6 +180,7 @@ fn sender_file(sender: &SenderSurvey) -> SenderFileRecord<'_> {
 fn subject_file(subject: &SubjectSurvey) -> SubjectFileRecord<'_> {
     SubjectFileRecord {
         source: subject.source,
+        subject: subject.id,
         name: &subject.name,
         frames: subject.frames,
         duration_s: seconds(subject.span),

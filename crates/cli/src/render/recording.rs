@@ -58,7 +58,7 @@ pub(crate) fn recorded(progress: &RecordProgress, elapsed: Duration) -> String {
     }
     for subject in &progress.subjects {
         let count = plural(subject.frames, "sample");
-        _ = write!(text, "\n  {}: {count}", printable(&subject.name));
+        _ = write!(text, "\n  {}: {count}", called(&subject.name, subject.id));
     }
     if progress.lost() > 0 {
         _ = write!(text, "\n{}", losses(progress));
@@ -114,7 +114,7 @@ pub(crate) fn recording(file: &Path, bytes: u64, survey: &Survey) -> String {
     for subject in &survey.subjects {
         let value = format!(
             "{}, {}, source {}",
-            printable(&subject.name),
+            called(&subject.name, subject.id),
             plural(subject.frames, "sample"),
             subject.source
         );
@@ -124,6 +124,14 @@ pub(crate) fn recording(file: &Path, bytes: u64, survey: &Survey) -> String {
         row(&mut text, "other", &plural(survey.other, "message"));
     }
     text
+}
+
+/// A subject's name, or its number where it has none.
+fn called(name: &str, id: u32) -> String {
+    if name.is_empty() {
+        return format!("subject {id}");
+    }
+    printable(name)
 }
 
 fn sender_row(text: &mut String, sender: &SenderSurvey) {

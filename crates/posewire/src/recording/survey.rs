@@ -62,7 +62,9 @@ pub struct SenderSurvey {
 pub struct SubjectSurvey {
     /// Which source it is of.
     pub source: u16,
-    /// Its name.
+    /// Its number at the source.
+    pub id: u32,
+    /// Its name, empty where the source did not say.
     pub name: String,
     /// Its samples.
     pub frames: u64,
@@ -172,6 +174,7 @@ impl Surveying {
             Some(format::POSES) => {
                 self.survey.subjects.push(SubjectSurvey {
                     source,
+                    id: text(format::SUBJECT).parse().unwrap_or_default(),
                     name: text(format::NAME),
                     ..SubjectSurvey::default()
                 });

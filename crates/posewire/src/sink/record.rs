@@ -94,7 +94,9 @@ pub struct RecordedSource {
 pub struct RecordedSubject {
     /// Its source.
     pub source: SourceId,
-    /// Its name.
+    /// Its number at the source.
+    pub id: u32,
+    /// Its name, empty where the source does not say.
     pub name: String,
     /// Its samples.
     pub frames: u64,
@@ -209,6 +211,7 @@ impl RecordSink {
         if place == subjects.len() {
             subjects.push(RecordedSubject {
                 source,
+                id: subject.id,
                 name: subject.name.clone(),
                 frames: 0,
             });
