@@ -54,6 +54,8 @@ impl Part {
             .library(concat!("posewire ", env!("CARGO_PKG_VERSION")))
             .compression(None)
             .chunk_size(Some(CHUNK))
+            // Every chunk has its own checksum, which is all that a file without an end can have.
+            .calculate_data_section_crc(false)
             .disable_seeking(true);
         let writer = options.create(NoSeek::new(BufWriter::with_capacity(BUFFER, counted)));
         Ok(Self {
