@@ -212,7 +212,7 @@ impl Sequence {
         Observation::Reset(kind)
     }
 
-    /// Takes the run of old samples for the beginning of a session: none of them was late or duplicate.
+    /// Takes the run of old samples for the beginning of a session.
     fn take_over_run(&mut self, now: Stamp) -> Observation {
         let run = self.old;
         let latest = run.samples().last().copied().unwrap_or_default();
@@ -220,7 +220,7 @@ impl Sequence {
             1..HALF => ResetKind::Jump,
             _ => self.kind_of_return(latest, now),
         };
-        self.tally = run.before;
+        self.tally = run.tally();
         self.count_session(kind);
         self.begin(run.samples(), now);
         Observation::Reset(kind)

@@ -65,8 +65,8 @@ mod tests {
 
     #[test]
     fn a_pause_counts_as_eight_times_the_pace_and_at_least_a_millisecond() {
-        assert_pace([(1, 16_000), (1, 1_000_000)], (16_000.0 + 128_000.0) / 2.0);
-        assert_pace([(1, 10), (1, 1_000_000)], (10.0 + 1_000.0) / 2.0);
+        assert_pace([(1, 16_000), (1, 1_000_000)], f64::midpoint(16_000.0, 128_000.0));
+        assert_pace([(1, 10), (1, 1_000_000)], f64::midpoint(10.0, 1_000.0));
     }
 
     #[test]

@@ -23,13 +23,23 @@ impl EqualSteps {
 pub(super) struct OldRun {
     samples: [u32; LESSON],
     count: usize,
+    /// How many came again right after themselves.
+    again: u64,
     /// The tally before the first of them.
-    pub(super) before: Tally,
+    before: Tally,
 }
 
 impl OldRun {
     pub(super) fn clear(&mut self) {
         self.count = 0;
+    }
+
+    /// The tally if all of them are new: none of them is late or duplicate but those that came again.
+    pub(super) fn tally(&self) -> Tally {
+        Tally {
+            duplicate: self.before.duplicate + self.again,
+            ..self.before
+        }
     }
 
     pub(super) fn samples(&self) -> &[u32] {
@@ -43,9 +53,12 @@ impl OldRun {
             .checked_sub(1)
             .map(|last| sample.wrapping_sub(self.samples[last]));
         match step {
-            Some(0) => return false,
+            Some(0) => {
+                self.again += 1;
+                return false;
+            }
             Some(1..HALF) => {}
-            _ => (self.count, self.before) = (0, tally),
+            _ => (self.count, self.again, self.before) = (0, 0, tally),
         }
         self.samples[self.count] = sample;
         self.count += 1;

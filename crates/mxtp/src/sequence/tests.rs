@@ -364,3 +364,15 @@ fn a_shorter_stride_is_learnt_from_eight_steps_and_a_longer_one_from_sixteen() {
     observe(&mut sequence, [65 + 48]);
     assert_eq!((sequence.stride(), sequence.tally()), (Some(3), Tally::default()));
 }
+
+#[test]
+fn what_comes_twice_while_a_rewind_is_found_out_is_a_duplicate_and_delays_nothing() {
+    let mut sequence = Sequence::new();
+    let seen = observe(&mut sequence, (0..100).chain([50, 51, 52, 52, 53, 54, 55, 56, 57, 58]));
+    assert_eq!(seen[108], Observation::Reset(ResetKind::Rewind));
+    let expected = Tally {
+        rewound: 1,
+        ..tally(0, 1, 0, 0)
+    };
+    assert_eq!((sequence.tally(), sequence.newest()), (expected, Some(58)));
+}
