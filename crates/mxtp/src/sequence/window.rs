@@ -82,3 +82,34 @@ pub(super) fn found_by(sample: u32, (older, newer): (Option<u32>, u32), stride: 
         None => -missing(sample, newer),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(samples: impl IntoIterator<Item = u32>) -> Window {
+        Window(samples.into_iter().collect())
+    }
+
+    #[test]
+    fn the_oldest_sample_goes_when_there_is_no_room_for_one_more() {
+        let mut almost_full = of((0..255).map(|n| 2 * n));
+        assert_eq!(almost_full.insert(3), Some((Some(2), 4)));
+        assert_eq!((almost_full.oldest(), almost_full.is_full()), (Some(0), true));
+        assert_eq!(almost_full.insert(5), Some((Some(4), 6)));
+        assert_eq!((almost_full.oldest(), almost_full.is_full()), (Some(2), true));
+    }
+
+    #[test]
+    fn of_equally_common_steps_the_smallest_is_taken() {
+        let steps = of([0, 2_000_000_000, 4_100_000_000]);
+        assert_eq!(steps.most_common_step(), (Some(2_000_000_000), 1));
+    }
+
+    #[test]
+    fn what_a_sample_finds_is_what_its_two_gaps_lack_less_than_the_one_before() {
+        assert_eq!(found_by(5, (Some(0), 10), Some(1)), 1);
+        assert_eq!(found_by(7, (None, 10), Some(1)), -2);
+        assert_eq!(found_by(7, (None, 10), None), 0);
+    }
+}
