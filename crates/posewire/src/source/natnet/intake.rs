@@ -35,8 +35,6 @@ pub(super) struct Intake<'a> {
     senders: Senders,
     server: SocketAddr,
     clock: Clock,
-    /// The latest time that the client was told; what it is told must not go back.
-    told: Stamp,
     /// How the server was last called.
     peer: String,
     silence: Silence,
@@ -50,7 +48,6 @@ pub(super) struct Intake<'a> {
 impl<'a> Intake<'a> {
     pub(super) fn new(outlet: &'a mut Outlet, address: NatNetAddress, server: SocketAddr) -> Self {
         let clock = Clock::new();
-        let told = clock.steady();
         let mut options = ClientOptions::new(server, address.mode);
         options.version = address.version;
         // Which of the addresses that send to a group is the server's is for `Senders` to say.
@@ -65,13 +62,12 @@ impl<'a> Intake<'a> {
         };
         let mut intake = Self {
             outbox: Vec::new(),
-            client: Client::new(told, options),
+            client: Client::new(clock.steady(), options),
             naming: Naming::new(settings),
             tally: NatNetTally::new(clock.now()),
             senders: Senders::new(address.mode, server.ip()),
             server,
             clock,
-            told,
             peer: server.to_string(),
             silence: Silence::default(),
             left_out: 0,
@@ -106,7 +102,7 @@ impl<'a> Intake<'a> {
 
     /// To be called after each batch: does what is due and hands everything to the sinks. `false` when no sink is left.
     pub(super) fn tick(&mut self, sockets: &Sockets) -> bool {
-        let now = self.now();
+        let now = self.clock.steady();
         if self.client.timeout().is_some_and(|due| due <= now) {
             self.client.handle_timeout(now);
             self.settle(self.clock.now());
@@ -211,7 +207,7 @@ impl<'a> Intake<'a> {
         }
         self.silence = Silence::begin();
         self.naming.wait();
-        self.client.request(self.told, FRAME_RATE);
+        self.client.request(self.clock.steady(), FRAME_RATE);
         self.tally.connected(server, info);
     }
 
@@ -266,7 +262,7 @@ impl<'a> Intake<'a> {
 
     fn forward(&mut self, (received, at): &Arrived) {
         let ReceivedFrame { frame, .. } = received;
-        self.tally.frame(received, *at, self.client.clock(self.told));
+        self.tally.frame(received, *at, self.client.clock(self.clock.steady()));
         let mut samples = self.naming.read(frame);
         for mut sample in samples.drain(..) {
             self.announce(&sample.subject);
@@ -284,7 +280,7 @@ impl<'a> Intake<'a> {
         if left_out > 0 && self.left_out == 0 {
             let text = "left out: bones that the server does not describe, or subjects beyond 2048".to_owned();
             self.notice(Notice::Remark { text });
-            let now = self.now();
+            let now = self.clock.steady();
             self.client.request_model(now);
             self.settle(self.clock.now());
         }
@@ -317,25 +313,19 @@ impl<'a> Intake<'a> {
             interface: Some(sockets.local().to_string()),
             kernel_dropped: sockets.kernel_dropped(),
             now: self.clock.now(),
-            steady: self.now(),
+            steady: self.clock.steady(),
         };
         let left_out = self.naming.subjects.left_out();
         let statistics = self.tally.report(Some(&self.client), left_out, &link, ended);
         self.outlet.push(Item::Statistics(Arc::new(statistics)));
     }
 
-    fn now(&mut self) -> Stamp {
-        self.told = self.told.max(self.clock.steady());
-        self.told
-    }
-
-    /// When something that the kernel stamped arrived, on the steady clock.
-    fn arrival(&mut self, stamp: Stamp) -> Stamp {
+    /// When something that the kernel stamped arrived, on the steady clock. What was read later can have come earlier: an
+    /// echo waits in one socket while frames are waited for on the other, and is no slower for that.
+    fn arrival(&self, stamp: Stamp) -> Stamp {
         let waited = self.clock.now().since(stamp).min(LONGEST_WAIT);
         let waited = i64::try_from(waited.as_nanos()).unwrap_or_default();
-        let arrival = Stamp(self.clock.steady().nanoseconds() - waited);
-        self.told = self.told.max(arrival);
-        self.told
+        Stamp(self.clock.steady().nanoseconds() - waited)
     }
 }
 
