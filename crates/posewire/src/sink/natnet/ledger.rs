@@ -12,7 +12,8 @@ pub(super) struct Ledger {
     clients: Vec<ClientProgress>,
     datagrams: u64,
     congested: u64,
-    failed: u64,
+    refused: u64,
+    too_large: u64,
 }
 
 impl Ledger {
@@ -57,7 +58,7 @@ impl Ledger {
         match sent {
             Sent::Taken => self.datagrams += 1,
             Sent::NoRoom => self.congested += 1,
-            Sent::Refused => self.failed += 1,
+            Sent::Refused => self.refused += 1,
             // No loss of this side: who has vanished is dropped for its silence.
             Sent::Nobody => {}
         }
@@ -69,12 +70,12 @@ impl Ledger {
 
     /// Enters a frame that no datagram of some version can hold.
     pub(super) fn count_too_large(&mut self) {
-        self.failed += 1;
+        self.too_large += 1;
     }
 
-    /// Whether nothing at all could be sent, though it was tried.
-    pub(super) fn has_only_failed(&self) -> bool {
-        self.failed > 0 && self.datagrams == 0
+    /// Whether the system has refused all that was tried so far.
+    pub(super) fn is_refused(&self) -> bool {
+        self.refused > 0 && self.datagrams == 0
     }
 
     /// How many clients are there now.
@@ -89,7 +90,7 @@ impl Ledger {
             peers: if multicast { 1 } else { self.peers() },
             datagrams: self.datagrams,
             congested: self.congested,
-            failed: self.failed,
+            failed: self.refused + self.too_large,
             dropped: 0,
             clients: self.clients.clone(),
         }
@@ -121,6 +122,16 @@ mod tests {
         let progress = ledger.progress("natnet://127.0.0.1", false);
         assert_eq!((progress.datagrams, progress.congested, progress.failed), (1, 1, 0));
         assert_eq!((progress.clients[0].frames, progress.clients[0].dropped), (1, 2));
+    }
+
+    #[test]
+    fn a_frame_that_is_too_large_fails_and_is_not_the_networks_fault() {
+        let mut ledger = Ledger::default();
+        ledger.count_too_large();
+        assert!(!ledger.is_refused());
+        ledger.count(client(1), Sent::Refused);
+        assert!(ledger.is_refused());
+        assert_eq!(ledger.progress("", true).failed, 2);
     }
 
     #[test]

@@ -206,7 +206,7 @@ impl Serving {
         self.act();
         self.count(&shares);
         match self.group {
-            Some(group) if self.ledger.has_only_failed() => Err(unsendable(group)),
+            Some(group) if self.ledger.is_refused() => Err(unsendable(group)),
             _ => Ok(()),
         }
     }
