@@ -248,6 +248,15 @@ fn who_listens_at_the_data_port_gets_a_copy() {
 }
 
 #[test]
+fn a_sink_that_is_dropped_frees_its_ports() {
+    let sink = open("");
+    let url = target(&sink).endpoint;
+    drop(sink);
+    let again = NatNetSink::open(&address(&url), NatNetSinkOptions::default());
+    assert!(again.is_ok(), "{url}");
+}
+
+#[test]
 fn subjects_of_one_sample_come_in_one_frame() {
     let mut sink = open("");
     let (ada, bat) = (ada(0), {

@@ -154,14 +154,10 @@ impl NatNetSink {
         })
     }
 
-    /// Ends the thread that answers.
-    fn end(&mut self) {
+    /// Ends the thread that answers, and gives how it ended.
+    fn end(&mut self) -> thread::Result<()> {
         self.shared.ending.stop();
-        if let Some(answering) = self.answering.take() {
-            answering
-                .join()
-                .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        }
+        self.answering.take().map_or(Ok(()), JoinHandle::join)
     }
 }
 
@@ -178,14 +174,16 @@ impl Sink for NatNetSink {
     }
 
     fn finish(&mut self) -> Result<()> {
-        self.end();
+        // A panic of the other thread goes on here: it is a defect, not an outcome.
+        self.end().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         self.shared.lock().finish()
     }
 }
 
 impl Drop for NatNetSink {
+    /// Frees the ports, also where the sink was not finished.
     fn drop(&mut self) {
-        self.shared.ending.stop();
+        let _ = self.end();
     }
 }
 
