@@ -20,13 +20,14 @@ impl Ports {
     pub(super) fn open(address: &NatNetAddress) -> Result<Self> {
         let multicast = address.mode == Mode::Multicast;
         let command = ServedPort::bind(&address.host, address.port, false, Error::SERVE_COMMANDS)?;
-        // Clients on this machine bind the data port as well, to receive from the group.
         let leaves_from = if leaves_port_to_clients(address) {
             0
         } else {
             address.data_port
         };
-        let data = ServedPort::bind(&address.host, leaves_from, multicast, Error::SERVE_FRAMES)?;
+        // Clients on this machine bind the data port as well, for what goes to the group or is copied there.
+        let shared = multicast || address.copy;
+        let data = ServedPort::bind(&address.host, leaves_from, shared, Error::SERVE_FRAMES)?;
         data.only_send()?;
         match &address.interface {
             interface if multicast => data.multicast_by(interface.as_ref(), HOPS)?,
@@ -56,7 +57,8 @@ impl Ports {
     }
 }
 
-/// Whether the data port belongs to a client on this machine, to which copies go.
+/// Whether the data port belongs to a client on this machine, to which copies go. Sharing it is not enough at an address
+/// of its own: the system would give the copies to the socket that has that address, not to one that has any.
 fn leaves_port_to_clients(address: &NatNetAddress) -> bool {
     let here = matches!(&address.host, Host::Address(host) if host.is_loopback());
     address.copy && here && address.data_port != 0
