@@ -27,7 +27,7 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
         .map(|url| url.parse())
         .collect::<posewire::Result<Vec<Endpoint>>>()?;
     refuse::endless(&from, &targets)?;
-    let source = Source::open(&from, &playback_options(&arguments.playback))?;
+    let source = Source::open(&from, &playback_options(&arguments.playback, &targets))?;
     if source.is_live() {
         refuse::playback(&arguments.playback)?;
         context::stop_after(&stop, arguments.playback.duration);
@@ -63,13 +63,15 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
     Ok(End::with_lost(progress.lost() + unsent))
 }
 
-fn playback_options(arguments: &Playback) -> PlaybackOptions {
+fn playback_options(arguments: &Playback, targets: &[Endpoint]) -> PlaybackOptions {
     PlaybackOptions {
         rate_hz: arguments.rate,
         speed: arguments.speed,
         looped: arguments.looped,
         duration: arguments.duration,
         salvage: arguments.salvage,
+        // NatNet has no place for any of it.
+        computes: targets.iter().any(|target| !matches!(target, Endpoint::NatNet(_))),
     }
 }
 

@@ -203,3 +203,22 @@ fn a_damaged_take_is_used_up_to_the_damage_when_asked() {
     monitor.interrupt();
     monitor.end();
 }
+
+#[test]
+fn nothing_is_computed_that_no_target_has_a_place_for() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("take.mvnx"), small_take(3)).unwrap();
+    let target = "natnet://127.0.0.1:0?data-port=0";
+    let ended = posewire(
+        folder.path(),
+        &["stream", "take.mvnx", "--no-wait", "--to", target],
+        b"",
+    );
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    assert!(ended.err.contains("sent 3 samples"), "{}", ended.err);
+    assert!(
+        !ended.err.contains("computed") && !ended.err.contains("left out"),
+        "{}",
+        ended.err
+    );
+}
