@@ -222,3 +222,18 @@ fn nothing_is_computed_that_no_target_has_a_place_for() {
         ended.err
     );
 }
+
+#[test]
+fn what_is_left_out_is_said_once_however_short_the_stream_and_many_the_targets() {
+    let target = "natnet://127.0.0.1:0?data-port=0";
+    let walk = "synthetic:walk?rate=60";
+    let targets = ["--to", target, "--to", target];
+    let arguments = ["stream", walk, "--no-wait", "--duration", "0.05"];
+    let ended = posewire(here(), &[&arguments[..], &targets].concat(), b"");
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    let said: Vec<_> = ended.err.lines().filter(|line| line.starts_with("left out")).collect();
+    let &[line] = said.as_slice() else {
+        panic!("{}", ended.err)
+    };
+    assert_eq!(line.matches("joint angles").count(), 1, "{line}");
+}
