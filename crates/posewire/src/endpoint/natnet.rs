@@ -6,7 +6,7 @@ use std::net::Ipv4Addr;
 use posewire_motion::Up;
 use posewire_natnet::Version;
 use posewire_natnet::client::Mode;
-use posewire_natnet::motion::Coordinates;
+use posewire_natnet::motion::{Coordinates, Settings};
 use posewire_natnet::server::Delivery;
 
 use super::address::{Host, Interface, parse_interface, parse_place};
@@ -72,6 +72,15 @@ impl NatNetAddress {
             up: Up::Y,
             skeleton: Coordinates::Global,
             copy: false,
+        }
+    }
+
+    /// What positions and bones of the server mean.
+    pub(crate) fn settings(&self) -> Settings {
+        Settings {
+            up: self.up,
+            skeleton: self.skeleton,
+            ..Settings::default()
         }
     }
 

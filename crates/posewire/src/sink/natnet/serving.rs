@@ -12,7 +12,7 @@ use crate::{Error, Result};
 use posewire_motion::{Frame, Stamp, Subject};
 use posewire_natnet::client::Mode;
 use posewire_natnet::frame::HostStamps;
-use posewire_natnet::motion::{Encoder, Settings, lacks};
+use posewire_natnet::motion::{Encoder, lacks};
 use posewire_natnet::server::{Delivery, Event, LeftReason, Server, ServerOptions};
 use posewire_natnet::{Output, Socket, Transmit};
 use std::collections::{BTreeMap, BTreeSet};
@@ -49,11 +49,6 @@ impl Serving {
             data_port: ports.data_port,
             ..address.clone()
         };
-        let settings = Settings {
-            up: address.up,
-            skeleton: address.skeleton,
-            ..Settings::default()
-        };
         let group = (opened.mode == Mode::Multicast).then(|| (opened.group, opened.data_port).into());
         let serving = Self {
             server: Server::new(server_options(&opened, options)),
@@ -62,7 +57,7 @@ impl Serving {
             states_rate: options.rate.is_some(),
             ports,
             clock: Clock::new(),
-            encoder: Encoder::new(settings),
+            encoder: Encoder::new(address.settings()),
             subjects: BTreeMap::new(),
             gathering: Gathering::default(),
             ledger: Ledger::default(),

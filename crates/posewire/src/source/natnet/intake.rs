@@ -7,7 +7,6 @@ use posewire_motion::{Stamp, Subject};
 use posewire_natnet::client::{Answer, Client, ClientOptions, DataSource, Event, Mode, ReceivedFrame};
 use posewire_natnet::command::ServerInfo;
 use posewire_natnet::model::Model;
-use posewire_natnet::motion::Settings;
 use posewire_natnet::{MessageId, Output, Quirks, Transmit};
 use std::net::SocketAddr;
 
@@ -48,22 +47,11 @@ pub(super) struct Intake<'a> {
 impl<'a> Intake<'a> {
     pub(super) fn new(outlet: &'a mut Outlet, address: NatNetAddress, server: SocketAddr) -> Self {
         let clock = Clock::new();
-        let mut options = ClientOptions::new(server, address.mode);
-        options.version = address.version;
-        // Which of the addresses that send to a group is the server's is for `Senders` to say.
-        options.data_source = match address.mode {
-            Mode::Unicast => DataSource::Server,
-            Mode::Multicast => DataSource::Any,
-        };
-        let settings = Settings {
-            up: address.up,
-            skeleton: address.skeleton,
-            ..Settings::default()
-        };
+        let options = client_options(&address, server);
         let mut intake = Self {
             outbox: Vec::new(),
             client: Client::new(clock.steady(), options),
-            naming: Naming::new(settings),
+            naming: Naming::new(address.settings()),
             tally: NatNetTally::new(clock.now()),
             senders: Senders::new(address.mode, server.ip()),
             server,
@@ -327,6 +315,17 @@ impl<'a> Intake<'a> {
         let waited = i64::try_from(waited.as_nanos()).unwrap_or_default();
         Stamp(self.clock.steady().nanoseconds() - waited)
     }
+}
+
+fn client_options(address: &NatNetAddress, server: SocketAddr) -> ClientOptions {
+    let mut options = ClientOptions::new(server, address.mode);
+    options.version = address.version;
+    // Which of the addresses that send to a group is the server's is for `Senders` to say.
+    options.data_source = match address.mode {
+        Mode::Unicast => DataSource::Server,
+        Mode::Multicast => DataSource::Any,
+    };
+    options
 }
 
 const FRAME_RATE: &str = "FrameRate";
