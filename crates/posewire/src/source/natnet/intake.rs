@@ -40,6 +40,8 @@ pub(super) struct Intake<'a> {
     left_out: u64,
     begun: Instant,
     unread_remarked: bool,
+    /// What was last said of what the server describes.
+    of_model: Option<String>,
     reports: Reports,
     outlet: &'a mut Outlet,
 }
@@ -61,6 +63,7 @@ impl<'a> Intake<'a> {
             left_out: 0,
             begun: Instant::now(),
             unread_remarked: false,
+            of_model: None,
             reports: Reports::new(),
             outlet,
             address,
@@ -205,7 +208,9 @@ impl<'a> Intake<'a> {
         let subjects = self.naming.all();
         self.tally.model(model, quirks, &subjects);
         self.announce_all();
-        if let Some(text) = advice::of_model(model) {
+        let text = advice::of_model(model).filter(|text| self.of_model.as_ref() != Some(text));
+        if let Some(text) = text {
+            self.of_model = Some(text.clone());
             self.notice(Notice::Remark { text });
         }
     }

@@ -6,6 +6,7 @@ use posewire::Notice;
 use posewire::endpoint::{Endpoint, NatNetAddress};
 use posewire::stop::Stop;
 use posewire_natnet::Version;
+use posewire_natnet::model::{Camera, Description};
 use posewire_natnet::server::{Delivery, ServerOptions};
 use std::net::UdpSocket;
 
@@ -122,6 +123,24 @@ fn a_server_that_answers_and_sends_no_frames_is_told_of_once_for_each_silence() 
         "the server answers, but no more frames come: is it paused?",
     ];
     assert_eq!([1, 2].map(|place| notices[place].to_string()), expected);
+}
+
+#[test]
+fn what_a_server_describes_that_is_no_motion_is_told_of_once() {
+    let filmed = |name: &str| {
+        let mut model = bodies(&[name]);
+        model.descriptions.push(Description::Camera(Camera::default()));
+        model
+    };
+    let motive = Motive::unicast(Version::new(4, 1), filmed("Wand"));
+    let receiver = motive.connect("");
+    motive.send_to(&receiver, &frame(1), 1);
+    motive.describe(filmed("Stick"));
+    motive.send_until(&receiver, 2, |gathered| gathered.subjects.len() == 2);
+    let notices = receiver.stop().notices;
+    let told = notices.iter().filter(|notice| notice.to_string().contains("no motion"));
+    let told: Vec<_> = told.map(ToString::to_string).collect();
+    assert_eq!(told, ["left out, as they are no motion: 1 camera"]);
 }
 
 #[test]
