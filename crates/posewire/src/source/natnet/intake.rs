@@ -173,7 +173,7 @@ impl<'a> Intake<'a> {
                     self.forward(&frame);
                 }
             }
-            Event::Message(text) => tracing::info!(%text, "the server says"),
+            Event::Message(text) => tracing::info!(?text, "the server says"),
             Event::Answer { request, answer } if request == FRAME_RATE => self.rate(&answer),
             Event::Lost(reason) => {
                 self.silence = Silence::default();
