@@ -69,7 +69,7 @@ pub(crate) struct Stream {
     ///
     /// 01 Euler, 02 quaternion, 03 points, 05 Unity, 12 meta, 13 scale, 20 joint angles, 21 linear and 22 angular
     /// kinematics, 23 trackers, 24 centre of mass, 25 timecode. What a take lacks is computed where that is possible.
-    #[arg(long, value_name = "TYPES", default_value = "02,12,13,20,24,25")]
+    #[arg(long, value_name = "TYPES", default_value = Self::TYPES)]
     pub(crate) types: String,
 
     #[command(flatten)]
@@ -98,6 +98,11 @@ pub(crate) struct Stream {
     /// Print the numbers at the end as one JSON object.
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+impl Stream {
+    /// The types that MVN sends unless told otherwise.
+    pub(crate) const TYPES: &str = "02,12,13,20,24,25";
 }
 
 /// How a file or the walker is played.

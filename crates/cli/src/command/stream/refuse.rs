@@ -1,6 +1,6 @@
 //! What cannot be streamed, found before anything is sent.
 
-use crate::cli::Playback;
+use crate::cli::{Playback, Revision, Stream};
 use crate::error::Usage;
 use posewire::Source;
 use posewire::endpoint::{Endpoint, Host};
@@ -19,6 +19,23 @@ pub(super) fn playback(arguments: &Playback) -> Result<(), Usage> {
         Some((option, _)) => Err(Usage {
             problem: format!("{option} is for takes and the walker, and the source is a live stream"),
             help: format!("leave {option} out"),
+        }),
+    }
+}
+
+/// Options of MXTP that no target would heed are refused as well.
+pub(super) fn mxtp_options(arguments: &Stream) -> Result<(), Usage> {
+    let given = [
+        ("--types", arguments.types != Stream::TYPES),
+        ("--character", arguments.character != 0),
+        ("--revision", !matches!(arguments.revision, Revision::N)),
+        ("--split", arguments.split.is_some()),
+    ];
+    match given.iter().find(|(_, is_given)| *is_given) {
+        None => Ok(()),
+        Some((option, _)) => Err(Usage {
+            problem: format!("{option} is for MXTP targets, and there is none"),
+            help: format!("leave {option} out, or name an MXTP target with --to"),
         }),
     }
 }

@@ -78,6 +78,7 @@ impl Handles {
 /// How MXTP is sent, if it is to be.
 fn mxtp_options(arguments: &Stream, source: &Source, targets: &[Endpoint]) -> anyhow::Result<Option<MxtpSinkOptions>> {
     if targets.is_empty() {
+        refuse::mxtp_options(arguments)?;
         return Ok(None);
     }
     let options = MxtpSinkOptions {
