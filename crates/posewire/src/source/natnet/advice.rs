@@ -35,6 +35,16 @@ pub(super) fn of_delivery(address: &NatNetAddress, info: &ServerInfo) -> Option<
     (better != *address).then(|| format!("the server says that it sends {says}: use {better}"))
 }
 
+/// A server that has not answered, and whose frames do not come either.
+pub(super) fn of_nobody(server: SocketAddr) -> String {
+    format!("no answer from {server} yet, asking on: is Motive streaming, and is that its Local Interface?")
+}
+
+/// Frames of a server that does not answer are of no known version.
+pub(super) fn of_unread_frames() -> String {
+    "frames come, but no server answers that says their version: name it, as in version=3.1".to_owned()
+}
+
 /// Why the server is lost.
 pub(super) const fn of_loss(reason: LostReason) -> &'static str {
     match reason {

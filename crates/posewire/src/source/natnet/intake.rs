@@ -39,7 +39,8 @@ pub(super) struct Intake<'a> {
     silence: Silence,
     left_out: u64,
     begun: Instant,
-    unread_remarked: bool,
+    /// What was last said of a server that has never answered.
+    of_no_answer: Option<String>,
     /// What was last said of what the server describes.
     of_model: Option<String>,
     reports: Reports,
@@ -62,7 +63,7 @@ impl<'a> Intake<'a> {
             silence: Silence::default(),
             left_out: 0,
             begun: Instant::now(),
-            unread_remarked: false,
+            of_no_answer: None,
             of_model: None,
             reports: Reports::new(),
             outlet,
@@ -100,7 +101,7 @@ impl<'a> Intake<'a> {
         }
         self.release(false);
         self.remark_on_silence(sockets);
-        self.remark_on_unread_frames();
+        self.remark_on_no_answer();
         self.look_for_left_out();
         if self.reports.is_due() {
             self.report(sockets, false);
@@ -288,12 +289,19 @@ impl<'a> Intake<'a> {
         self.notice(Notice::Remark { text });
     }
 
-    /// Frames of a server that does not answer are of no known version.
-    fn remark_on_unread_frames(&mut self) {
-        let unread = self.client.version().is_none() && self.client.counts().early > 0;
-        if unread && self.begun.elapsed() >= REMARK_AFTER && !std::mem::replace(&mut self.unread_remarked, true) {
-            let text =
-                "frames come, but no server answers that says their version: name it, as in version=3.1".to_owned();
+    /// Says once each what a server is like that has never answered.
+    fn remark_on_no_answer(&mut self) {
+        if !self.tally.is_nameless() || self.begun.elapsed() < REMARK_AFTER {
+            return;
+        }
+        let counts = self.client.counts();
+        let text = match (self.client.version(), counts.early, counts.received) {
+            (None, 1.., _) => advice::of_unread_frames(),
+            (_, 0, 0) => advice::of_nobody(self.server),
+            _ => return,
+        };
+        if self.of_no_answer.as_ref() != Some(&text) {
+            self.of_no_answer = Some(text.clone());
             self.notice(Notice::Remark { text });
         }
     }

@@ -126,6 +126,16 @@ fn a_server_that_answers_and_sends_no_frames_is_told_of_once_for_each_silence() 
 }
 
 #[test]
+fn a_server_that_never_answers_is_told_of() {
+    let silent = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let at = silent.local_addr().unwrap();
+    let receiver = Receiver::start(&format!("natnet://{at}"));
+    receiver.gatherer.wait_until(|gathered| !gathered.notices.is_empty());
+    let notices = receiver.stop().notices;
+    assert!(has_remark(&notices, &format!("no answer from {at} yet")), "{notices:?}");
+}
+
+#[test]
 fn what_a_server_describes_that_is_no_motion_is_told_of_once() {
     let filmed = |name: &str| {
         let mut model = bodies(&[name]);
