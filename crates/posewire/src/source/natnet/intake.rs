@@ -81,8 +81,10 @@ impl<'a> Intake<'a> {
         if is_frame && !self.is_from_server(from) {
             return false;
         }
-        let now = self.arrival(received.stamp);
-        self.client.handle(now, from, received.bytes);
+        // What was read later can have come earlier: an echo waits in one socket while frames are waited for on the other, and
+        // is no slower for that.
+        let arrival = self.clock.arrival(received.stamp);
+        self.client.handle(arrival, from, received.bytes);
         self.settle(received.stamp);
         is_frame
     }
@@ -320,14 +322,6 @@ impl<'a> Intake<'a> {
         let statistics = self.tally.report(Some(&self.client), left_out, &link, ended);
         self.outlet.push(Item::Statistics(Arc::new(statistics)));
     }
-
-    /// When something that the kernel stamped arrived, on the steady clock. What was read later can have come earlier: an
-    /// echo waits in one socket while frames are waited for on the other, and is no slower for that.
-    fn arrival(&self, stamp: Stamp) -> Stamp {
-        let waited = self.clock.now().since(stamp).min(LONGEST_WAIT);
-        let waited = i64::try_from(waited.as_nanos()).unwrap_or_default();
-        Stamp(self.clock.steady().nanoseconds() - waited)
-    }
 }
 
 fn client_options(address: &NatNetAddress, server: SocketAddr) -> ClientOptions {
@@ -343,5 +337,3 @@ fn client_options(address: &NatNetAddress, server: SocketAddr) -> ClientOptions 
 
 const FRAME_RATE: &str = "FrameRate";
 const LISTEN_AFTER: Duration = Duration::from_secs(1);
-/// A stamp that is longer ago is of a clock that was set meanwhile.
-const LONGEST_WAIT: Duration = Duration::from_secs(1);
