@@ -176,14 +176,17 @@ impl Serving {
         if !self.seen.insert(frame.subject.id) {
             return;
         }
-        let mut progress = self.progress.lock().unwrap_or_else(PoisonError::into_inner);
         for what in lacks(frame) {
-            if !progress.left_out.iter().any(|known| known.what == what) {
-                progress.left_out.push(LeftOut {
-                    what: what.to_owned(),
-                    why: "NatNet has no place for it",
-                });
-            }
+            self.leave_out(what, "NatNet has no place for it");
+        }
+    }
+
+    fn leave_out(&self, what: &str, why: &'static str) {
+        let mut progress = self.progress.lock().unwrap_or_else(PoisonError::into_inner);
+        let what = what.to_owned();
+        let entry = LeftOut { what, why };
+        if !progress.left_out.contains(&entry) {
+            progress.left_out.push(entry);
         }
     }
 
@@ -192,6 +195,9 @@ impl Serving {
         let shares = self.gathering.take();
         if shares.is_empty() {
             return Ok(());
+        }
+        if self.gathering.comes_apart() {
+            self.leave_out("frames with everybody in them", NUMBERED_APART);
         }
         let mut frame = self.encoder.frame(shares.iter().map(|share| &*share.frame));
         frame.host_stamps = Some(self.host_stamps(&shares));
@@ -303,5 +309,7 @@ fn server_options(opened: &NatNetAddress, options: &NatNetSinkOptions) -> Server
     }
 }
 
+const NUMBERED_APART: &str =
+    "the sources number their samples each for itself, so that each person is missing from frames";
 const IDLE: Duration = Duration::from_millis(50);
 const SUMMARISE_EVERY: Duration = Duration::from_millis(100);
