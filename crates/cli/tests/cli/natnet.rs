@@ -5,6 +5,7 @@ use posewire_natnet::{MessageId, Packet};
 use std::io::{BufRead, BufReader, Read};
 use std::net::{Ipv4Addr, UdpSocket};
 use std::process::{Child, ChildStderr, Command, Stdio};
+use std::time::Duration;
 
 /// `posewire stream` to NatNet clients, waiting for one.
 struct Server {
@@ -67,6 +68,7 @@ fn a_stream_begins_when_a_client_connects_and_tells_of_it() {
     let mut server = Server::start("synthetic:walk?rate=60", &["--duration", "0.5", "--json"]);
     server.read_until("waiting for somebody to connect");
     let client = UdpSocket::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
+    client.set_read_timeout(Some(Duration::from_secs(30))).unwrap();
     client.send_to(&[0, 0, 0, 0], server.place()).unwrap();
     let mut buffer = vec![0; 65_535];
     let mut kinds = Vec::new();
