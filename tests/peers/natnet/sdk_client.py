@@ -1,5 +1,13 @@
-"""The vendor's sample client, natnetsdk on PyPI, unicast: it asks for 4.1 and takes what the server tells it."""
+"""The vendor's sample, natnetsdk on PyPI, unicast: it asks for 4.1 and takes what the server tells it.
 
+It starts as the sample does, which shows its configuration, and then changes versions as the sample's keys 3 and 4 do,
+where the server lets it.
+"""
+
+import select
+import threading
+
+from natnetsdk.__main__ import print_configuration
 from natnetsdk.NatNetClient import NatNetClient
 from watch import Watch
 
@@ -11,9 +19,14 @@ def main():
     client.command_port = watch.arguments.port
     client.set_use_multicast(False)
     client.set_print_level(0)
-    listen(client, watch)
+    idle = threading.Event()
+    listen(client, watch, idle)
     client.run()
     watch.begun.wait(watch.patience)
+    print_configuration(client)
+    if client.can_change_bitstream_version():
+        change_version(client, idle, watch, 3, 1)
+        change_version(client, idle, watch, 4, 1)
     client.send_request(
         client.command_socket, client.NAT_REQUEST_MODELDEF, "", (client.server_ip_address, client.command_port)
     )
@@ -21,7 +34,14 @@ def main():
     watch.report(f"{client.get_major()}.{client.get_minor()}")
 
 
-def listen(client, watch):
+def change_version(client, idle, watch, major, minor):
+    """Asks for another version when no frame of the old one waits: the client reads all as the new one from now on."""
+    idle.clear()
+    idle.wait(watch.patience)
+    client.set_nat_net_version(major, minor)
+
+
+def listen(client, watch, idle):
     """Sees what the client has unpacked: its listeners are told of bodies without their skeleton, and of no marker."""
     unpack_frame = client._NatNetClient__unpack_mocap_data
     unpack_model = client._NatNetClient__unpack_data_descriptions
@@ -37,6 +57,8 @@ def listen(client, watch):
             [(marker.id_num, marker.pos) for marker in frame.labeled_marker_data.labeled_marker_list],
             [(group.model_name, group.marker_pos_list) for group in frame.marker_set_data.marker_data_list],
         )
+        if not select.select([client.command_socket], [], [], 0)[0]:
+            idle.set()
         return offset, frame
 
     def unpacked_model(*arguments):

@@ -129,6 +129,17 @@ fn requests_get_the_answers_that_clients_wait_for() {
     assert!(matches!(&unknown[..], [Message::UnrecognizedRequest(Some(sender))] if sender.name == "Motive"));
 }
 
+/// The vendor's Python client takes all that comes behind the dot for a number.
+#[test]
+fn an_answer_in_text_ends_with_its_last_letter() {
+    let mut server = server();
+    connect(&mut server, client_address(), None);
+    drain(&mut server);
+    server.handle(START, client_address(), &encoded(&Message::Request("Bitstream".into())));
+    let (_, transmits) = drain(&mut server);
+    assert_eq!(&*transmits[0].bytes, b"\x03\0\x0d\0Bitstream,4.1");
+}
+
 #[test]
 fn a_request_without_its_zero_is_understood() {
     let mut server = server();
