@@ -71,6 +71,8 @@ use timers::Timers;
 pub struct Client {
     options: ClientOptions,
     server: Option<Peer>,
+    /// The one that answered last.
+    last_server: Option<SocketAddr>,
     heard: Stamp,
     timers: Timers,
     requests: Requests,
@@ -96,6 +98,7 @@ impl Client {
     pub fn new(now: Stamp, options: ClientOptions) -> Self {
         let mut client = Self {
             server: None,
+            last_server: None,
             heard: now,
             timers: Timers::new(&options),
             requests: Requests::new(options.retry),
@@ -149,6 +152,7 @@ impl Client {
         }
         if self.server.is_some() {
             self.keep_up(now);
+            self.ask_for_clock(now);
         }
     }
 

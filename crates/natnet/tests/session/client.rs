@@ -37,6 +37,7 @@ impl Harness {
     fn connected(options: ClientOptions) -> Self {
         let mut harness = Self::new(options);
         harness.answer(&Message::ServerInfo(info("Motive", harness.version)));
+        harness.wait(Duration::ZERO);
         harness.drain();
         harness
     }
@@ -119,6 +120,23 @@ fn the_first_message_says_who_connects_and_which_version_it_wants() {
     };
     assert_eq!(connect.requested_version(), options.version);
     assert_eq!(connect.sender.as_ref(), Some(&options.sender));
+}
+
+#[test]
+fn frames_of_a_server_that_was_lost_are_refused_until_it_answers_and_then_missing() {
+    let mut harness = Harness::connected(ClientOptions::new(server_address(), Mode::Unicast));
+    harness.answer(&boxed(1));
+    harness.wait(Duration::from_secs(4));
+    assert_eq!(harness.client.version(), None);
+    harness.answer(&boxed(2));
+    harness.answer(&boxed(3));
+    harness.answer(&Message::ServerInfo(info("Motive", harness.version)));
+    harness.answer(&boxed(4));
+    let counts = harness.client.counts();
+    assert_eq!(
+        (counts.received, counts.missing, counts.refused, counts.early),
+        (2, 2, 2, 0)
+    );
 }
 
 #[test]
