@@ -44,15 +44,15 @@ pub(crate) fn say(text: impl std::fmt::Display) {
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
 
-/// Says what a source has to say, and keeps how many datagrams the kernel dropped before the source saw them.
+/// Says what a source has to say, and keeps how many datagrams were lost on this machine before the source could read them.
 #[derive(Clone, Default)]
 pub(crate) struct Teller {
-    kernel_dropped: Arc<AtomicU64>,
+    lost_here: Arc<AtomicU64>,
 }
 
 impl Teller {
-    pub(crate) fn kernel_dropped(&self) -> u64 {
-        self.kernel_dropped.load(Ordering::Relaxed)
+    pub(crate) fn lost_here(&self) -> u64 {
+        self.lost_here.load(Ordering::Relaxed)
     }
 }
 
@@ -63,7 +63,7 @@ impl Sink for Teller {
                 end_progress();
                 say(notice);
             }
-            Item::Statistics(statistics) => self.kernel_dropped.store(statistics.kernel_dropped, Ordering::Relaxed),
+            Item::Statistics(statistics) => self.lost_here.store(statistics.lost_here(), Ordering::Relaxed),
             _ => {}
         }
         Ok(())

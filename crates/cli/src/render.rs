@@ -97,11 +97,13 @@ pub(crate) fn statistics(statistics: &Statistics) -> String {
 
 /// What went wrong with a stream as a whole: counts above zero, in words.
 pub(crate) fn troubles(statistics: &Statistics) -> impl Iterator<Item = (u64, &'static str)> {
+    let refused = statistics.server.as_ref().map_or(0, |server| server.refused);
     let all = [
         (statistics.kernel_dropped, "dropped by the kernel"),
         (statistics.malformed, "malformed"),
         (statistics.skipped_bytes, "bytes skipped"),
         (statistics.characters_refused, "of too many characters"),
+        (refused, "refused while no server was connected"),
     ];
     all.into_iter().filter(|(count, _)| *count > 0)
 }

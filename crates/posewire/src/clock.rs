@@ -48,10 +48,10 @@ impl Clock {
         Stamp(self.origin_utc.after(after).nanoseconds().saturating_sub(before))
     }
 
-    /// The steady stamp of what arrived a moment ago, by its UTC stamp. One that is longer ago than a second, or in the
-    /// future, is of a clock that was set meanwhile.
-    pub(crate) fn arrival(&self, utc: Stamp) -> Stamp {
-        let waited = self.now().since(utc).min(LONGEST_WAIT);
+    /// The steady stamp of what arrived a moment ago, by its UTC stamp. One that is longer ago than `longest`, which is at
+    /// least a second, or in the future, is of a clock that was set meanwhile.
+    pub(crate) fn arrival(&self, utc: Stamp, longest: Duration) -> Stamp {
+        let waited = self.now().since(utc).min(longest.max(SHORTEST_LIMIT));
         let waited = i64::try_from(waited.as_nanos()).unwrap_or_default();
         Stamp(self.steady().nanoseconds() - waited)
     }
@@ -74,7 +74,7 @@ pub(crate) fn stamp_of_kernel(time: nix::sys::time::TimeSpec) -> Stamp {
     Stamp::from_parts(time.tv_sec(), time.tv_nsec())
 }
 
-const LONGEST_WAIT: Duration = Duration::from_secs(1);
+const SHORTEST_LIMIT: Duration = Duration::from_secs(1);
 
 #[cfg(test)]
 mod tests {
@@ -85,13 +85,14 @@ mod tests {
         const SECOND: i64 = 1_000_000_000;
         let mut clock = Clock::new();
         clock.origin_utc = Stamp(0);
-        for (ago, longest, shortest) in [
-            (SECOND / 2, SECOND, SECOND / 2),
-            (100 * SECOND, SECOND, SECOND),
-            (-100 * SECOND, 0, 0),
+        for (ago, limit, longest, shortest) in [
+            (SECOND / 2, 0, SECOND, SECOND / 2),
+            (100 * SECOND, 0, SECOND, SECOND),
+            (100 * SECOND, 200, 101 * SECOND, 100 * SECOND),
+            (-100 * SECOND, 200, 0, 0),
         ] {
             let before = clock.steady();
-            let arrival = clock.arrival(Stamp(clock.now().nanoseconds() - ago));
+            let arrival = clock.arrival(Stamp(clock.now().nanoseconds() - ago), Duration::from_secs(limit));
             let after = clock.steady();
             assert!((before.0 - longest..=after.0 - shortest).contains(&arrival.0), "{ago}");
         }

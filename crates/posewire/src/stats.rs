@@ -126,4 +126,10 @@ impl Statistics {
         });
         server.chain(subjects)
     }
+
+    /// Datagrams that arrived on this machine and were lost here: dropped by the kernel, or refused while no server was
+    /// connected that says their version.
+    pub fn lost_here(&self) -> u64 {
+        self.kernel_dropped + self.server.as_ref().map_or(0, |server| server.refused)
+    }
 }

@@ -54,7 +54,7 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
     end_progress();
     let progress = progress.read();
     peers.tell(&progress);
-    let unsent = teller.kernel_dropped() + outcome.as_ref().map_or(0, |outcome| outcome.dropped);
+    let unsent = teller.lost_here() + outcome.as_ref().map_or(0, |outcome| outcome.dropped);
     if arguments.json {
         json::print(&json::StreamRecord::new(&progress, unsent))?;
     } else {

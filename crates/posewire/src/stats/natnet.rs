@@ -197,6 +197,7 @@ impl NatNetTally {
             latencies: self.latency_summaries(),
             model: self.model,
             left_out,
+            refused: client.counts().refused,
         }))
     }
 

@@ -42,6 +42,8 @@ pub struct ServerStatistics {
     pub edit_mode: Option<bool>,
     /// Bodies, skeletons and bones of all frames that could not be made motion.
     pub left_out: u64,
+    /// Frames that came after the connection was lost and before the server had answered again, and could not be read.
+    pub refused: u64,
 }
 
 /// A server's clock against ours.

@@ -177,6 +177,7 @@ mod tests {
             recording: None,
             edit_mode: None,
             left_out: 0,
+            refused: 0,
         };
         Statistics {
             server: Some(Box::new(server)),

@@ -100,7 +100,7 @@ fn finish(session: Session, board: &Board, view: View) -> anyhow::Result<End> {
         ));
     }
     Ok(End::with_lost(
-        outcome.dropped + last.map_or(0, |last| last.kernel_dropped),
+        outcome.dropped + last.map_or(0, |last| last.lost_here()),
     ))
 }
 

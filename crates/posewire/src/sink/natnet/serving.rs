@@ -218,7 +218,7 @@ impl Serving {
         let due = shares.iter().filter_map(|share| share.due).min();
         let due = due.map(|due| self.clock.stamp_of(due));
         let arrived = shares.iter().filter_map(|share| share.frame.received).max();
-        let arrived = arrived.map(|arrived| self.clock.arrival(arrived));
+        let arrived = arrived.map(|arrived| self.clock.arrival(arrived, Duration::ZERO));
         let ticks = |stamp: Stamp| self.server.ticks(stamp.min(now));
         HostStamps {
             mid_exposure: due.map_or(0, ticks),

@@ -34,6 +34,8 @@ pub(super) struct Intake<'a> {
     senders: Senders,
     server: SocketAddr,
     clock: Clock,
+    /// When all that had arrived was last known to have been read.
+    read_until: Stamp,
     /// How the server was last called.
     peer: String,
     silence: Silence,
@@ -59,6 +61,7 @@ impl<'a> Intake<'a> {
             senders: Senders::new(address.mode, server.ip()),
             server,
             clock,
+            read_until: clock.steady(),
             peer: server.to_string(),
             silence: Silence::default(),
             left_out: 0,
@@ -82,8 +85,10 @@ impl<'a> Intake<'a> {
             return false;
         }
         // What was read later can have come earlier: an echo waits in one socket while frames are waited for on the other, and
-        // is no slower for that.
-        let arrival = self.clock.arrival(received.stamp);
+        // is no slower for that. Nor are those that have waited while this program was suspended.
+        let arrival = self
+            .clock
+            .arrival(received.stamp, self.clock.steady().since(self.read_until));
         self.client.handle(arrival, from, received.bytes);
         self.settle(received.stamp);
         is_frame
@@ -92,6 +97,17 @@ impl<'a> Intake<'a> {
     /// Tells the sinks something about the connection.
     pub(super) fn notice(&mut self, notice: Notice) {
         self.outlet.push(Item::Notice(notice));
+    }
+
+    /// Whether something is to be done about time that has passed. What arrived until then is to be read first: it may
+    /// have waited for as long, in this program's stead.
+    pub(super) fn is_due(&self) -> bool {
+        self.client.timeout().is_some_and(|due| due <= self.clock.steady())
+    }
+
+    /// To be called when nothing is left to be read.
+    pub(super) fn note_all_read(&mut self) {
+        self.read_until = self.clock.steady();
     }
 
     /// To be called after each batch: does what is due and hands everything to the sinks. `false` when no sink is left.

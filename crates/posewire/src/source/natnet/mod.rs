@@ -112,10 +112,25 @@ impl Running<'_> {
     /// Takes what comes within `timeout` and does what is due. `false` when no sink is left.
     fn tick(&mut self, timeout: Duration) -> Result<bool> {
         self.receive(timeout)?;
+        if self.intake.is_due() {
+            self.catch_up()?;
+        }
         let goes_on = self.intake.tick(&self.sockets);
         self.send();
         self.listen_elsewhere();
         Ok(goes_on)
+    }
+
+    /// Reads what has arrived before anything is concluded from silence: after a stall of this program, or of the whole
+    /// machine, a server is not gone whose datagrams wait.
+    fn catch_up(&mut self) -> Result<()> {
+        for _ in 0..MOST_BATCHES {
+            if self.receive(Duration::ZERO)? == 0 {
+                break;
+            }
+        }
+        self.intake.note_all_read();
+        Ok(())
     }
 
     fn receive(&mut self, timeout: Duration) -> Result<usize> {
@@ -153,6 +168,9 @@ impl Running<'_> {
         self.intake.finish(&self.sockets);
     }
 }
+
+/// The most that is read at once, so that a flood does not keep us from everything else: more than the system keeps.
+const MOST_BATCHES: usize = 1024;
 
 /// Whether an address stands for whichever server there is.
 fn is_anybody(address: IpAddr) -> bool {

@@ -77,6 +77,7 @@ fn server() -> Server {
         recording: Some(false),
         edit_mode: Some(false),
         left_out: 0,
+        refused: 0,
     };
     let frames = TypeRow {
         kind: DatagramKind::NatNetFrame,
