@@ -192,13 +192,10 @@ fn answer(shared: &Shared) {
     let mut buffer = vec![0; LARGEST_DATAGRAM];
     while !shared.ending.is_stopped() {
         let patience = shared.lock().patience();
-        match shared.ports.command.receive(patience, &mut buffer) {
-            Ok(Some((length, from))) => shared.lock().answer(from, buffer.get(..length).unwrap_or_default()),
-            Ok(None) => {}
-            Err(error) => {
-                tracing::warn!(%error, "cannot receive NatNet commands");
-                shared.ending.wait(Duration::from_secs(1));
-            }
+        let answer = |from, bytes: &[u8]| shared.lock().answer(from, bytes);
+        if let Err(error) = shared.ports.receive(patience, &mut buffer, answer) {
+            tracing::warn!(%error, "cannot receive NatNet commands");
+            shared.ending.wait(Duration::from_secs(1));
         }
         if let Err(error) = shared.lock().tend() {
             tracing::warn!(%error, "cannot send a NatNet frame");

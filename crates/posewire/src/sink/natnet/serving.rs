@@ -45,7 +45,7 @@ pub(super) struct Serving {
 impl Serving {
     pub(super) fn new(address: &NatNetAddress, options: &NatNetSinkOptions, ports: Arc<Ports>) -> Self {
         let opened = NatNetAddress {
-            port: ports.command.local_address().port(),
+            port: ports.local_address().port(),
             data_port: ports.data_port,
             ..address.clone()
         };
