@@ -110,8 +110,12 @@ fn of_server(address: &NatNetAddress, all: &Statistics) -> String {
         );
     }
     if server.frames.counters.received > 0 {
+        let what = match server.model {
+            Some(model) if model.marker_sets > 0 => "only marker sets",
+            _ => "nothing",
+        };
         return format!(
-            "frames come from {name}, with nothing in them. Check that in Motive\n\
+            "frames come from {name}, with {what} in them. Check that in Motive\n\
              - Rigid Bodies, Skeletons or Labeled Markers are on in Settings > Streaming\n\
              - the assets are ticked in the Assets pane, and something is in view"
         );
@@ -145,7 +149,7 @@ fn of_delivery(address: &NatNetAddress, server: &ServerStatistics) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use posewire::stats::{Counters, DatagramKind, Latencies, StreamStatistics};
+    use posewire::stats::{Counters, DatagramKind, Latencies, ModelCounts, StreamStatistics};
     use posewire_natnet::Version;
 
     fn endpoint(text: &str) -> Endpoint {
@@ -239,6 +243,13 @@ mod tests {
     fn empty_frames_and_unreadable_ones_are_told_apart() {
         let empty = of(&endpoint("natnet://h"), false, Some(&answering(Mode::Unicast, 9)));
         assert_says(&empty, &["nothing in them", "Rigid Bodies", "Assets pane"]);
+        let mut sets = answering(Mode::Unicast, 9);
+        sets.server.as_mut().unwrap().model = Some(ModelCounts {
+            marker_sets: 1,
+            ..ModelCounts::default()
+        });
+        let sets = of(&endpoint("natnet://h"), false, Some(&sets));
+        assert_says(&sets, &["with only marker sets", "Rigid Bodies"]);
         let mut unread = answering(Mode::Unicast, 0);
         unread.last_malformed = Some("found \u{1b}".to_owned());
         unread.server.as_mut().unwrap().frames.counters.malformed = 4;

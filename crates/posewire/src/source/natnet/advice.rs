@@ -71,6 +71,13 @@ pub(super) fn of_model(model: &Model) -> Option<String> {
     (!listed.is_empty()).then(|| format!("left out, as they are no motion: {}", listed.join(", ")))
 }
 
+/// Frames in which nothing moves that has a name of its own.
+pub(super) fn of_marker_sets() -> String {
+    "left out: frames hold only marker sets, of which no sample is made; turn on Rigid Bodies, Skeletons or Labeled Markers in \
+     Motive"
+        .to_owned()
+}
+
 fn plural(count: usize, what: &str) -> String {
     let s = if count == 1 { "" } else { "s" };
     format!("{count} {what}{s}")

@@ -45,6 +45,7 @@ pub(super) struct Intake<'a> {
     of_no_answer: Option<String>,
     /// What was last said of what the server describes.
     of_model: Option<String>,
+    told_of_sets: bool,
     reports: Reports,
     outlet: &'a mut Outlet,
 }
@@ -68,6 +69,7 @@ impl<'a> Intake<'a> {
             begun: Instant::now(),
             of_no_answer: None,
             of_model: None,
+            told_of_sets: false,
             reports: Reports::new(),
             outlet,
             address,
@@ -276,6 +278,7 @@ impl<'a> Intake<'a> {
         let ReceivedFrame { frame, .. } = received;
         self.tally.frame(received, *at, self.client.clock(self.clock.steady()));
         let mut samples = self.naming.read(frame);
+        self.remark_on_sets(samples.is_empty() && !frame.marker_sets.is_empty());
         for mut sample in samples.drain(..) {
             self.announce(&sample.subject);
             self.tally.sample(&sample);
@@ -284,6 +287,14 @@ impl<'a> Intake<'a> {
             self.outlet.push(Item::Frame { frame, due: None });
         }
         self.naming.reuse(samples);
+    }
+
+    /// Says once that there is nothing to show, and to count, of frames with `only_sets` in them.
+    fn remark_on_sets(&mut self, only_sets: bool) {
+        if only_sets && !std::mem::replace(&mut self.told_of_sets, true) {
+            let text = advice::of_marker_sets();
+            self.notice(Notice::Remark { text });
+        }
     }
 
     /// Bones that no description has, or too many subjects.

@@ -1,11 +1,12 @@
 //! Servers that vanish, send elsewhere or send nonsense.
 
 use super::motive::{Motive, Sockets, bodies, frame, of_version};
-use crate::harness::{Receiver, open};
+use crate::harness::{Gathered, Receiver, open};
 use posewire::Notice;
 use posewire::endpoint::{Endpoint, NatNetAddress};
 use posewire::stop::Stop;
 use posewire_natnet::Version;
+use posewire_natnet::frame::{Frame, MarkerSet};
 use posewire_natnet::model::{Camera, Description};
 use posewire_natnet::server::{Delivery, ServerOptions};
 use std::net::UdpSocket;
@@ -42,6 +43,20 @@ fn a_server_that_vanishes_is_told_of_and_heard_again_when_it_is_back() {
     assert_eq!(told, expected);
     assert_eq!(gathered.frames.last().unwrap().subject.name, "Wand");
     assert_eq!(gathered.subjects.len(), 1, "the same subject goes on");
+}
+
+#[test]
+fn the_clock_of_a_server_that_is_gone_is_told_as_it_was_last_known() {
+    let motive = Motive::unicast(Version::new(4, 1), bodies(&["Wand"]));
+    let receiver = motive.connect("");
+    let server = |gathered: &Gathered| gathered.statistics.as_ref().and_then(|all| all.server.clone());
+    let has_clock = |gathered: &Gathered| server(gathered).is_some_and(|server| server.clock.is_some());
+    motive.send_until(&receiver, 1, has_clock);
+    drop(motive);
+    receiver
+        .gatherer
+        .wait_until(|gathered| server(gathered).is_some_and(|server| !server.connected));
+    assert!(has_clock(&receiver.stop()));
 }
 
 #[test]
@@ -151,6 +166,26 @@ fn what_a_server_describes_that_is_no_motion_is_told_of_once() {
     let told = notices.iter().filter(|notice| notice.to_string().contains("no motion"));
     let told: Vec<_> = told.map(ToString::to_string).collect();
     assert_eq!(told, ["left out, as they are no motion: 1 camera"]);
+}
+
+#[test]
+fn frames_of_marker_sets_alone_are_told_of() {
+    let motive = Motive::unicast(Version::new(2, 0), bodies(&["Wand"]));
+    let receiver = motive.connect("");
+    let set = MarkerSet {
+        name: "Ada".into(),
+        markers: vec![[0.0, 1.5, 0.0]],
+    };
+    let of_sets = Frame {
+        marker_sets: vec![set],
+        ..Frame::default()
+    };
+    motive.send(&of_sets).unwrap();
+    let is_remark = |notice: &Notice| notice.to_string().contains("only marker sets");
+    receiver
+        .gatherer
+        .wait_until(|gathered| gathered.notices.iter().any(is_remark));
+    assert!(receiver.stop().frames.is_empty());
 }
 
 #[test]
