@@ -1,9 +1,10 @@
 //! `posewire stream` to NatNet clients, and from a NatNet server to MXTP.
 
-use crate::program::{Monitor, Relay, assert_documented, objects};
+use crate::program::{Monitor, Relay, assert_documented, objects, posewire};
 use posewire_natnet::{MessageId, Packet};
 use std::io::{BufRead, BufReader, Read};
 use std::net::{Ipv4Addr, UdpSocket};
+use std::path::Path;
 use std::process::{Child, ChildStderr, Command, Stdio};
 use std::time::Duration;
 
@@ -107,7 +108,10 @@ fn a_skeleton_is_passed_on_from_natnet_to_mxtp() {
     let monitor = Monitor::start(&["mxtp://127.0.0.1:0", "--json", "--frames", "--count", "20"]);
     let mut server = Server::start("synthetic:walk?rate=60&props=1&fingers=true", &["--duration", "20"]);
     let source = format!("natnet://{}", server.place());
-    let bridge = Relay::start(&[&source, "--to", &monitor.endpoint, "--duration", "20"]);
+    let mut bridge = Relay::start(&[&source, "--to", &monitor.endpoint, "--duration", "20"]);
+    assert_eq!(bridge.types, "02,12,13,20,25", "no centre of mass comes over NatNet");
+    let told = bridge.read_until("left out");
+    assert!(told.contains("left out: datagram type 24 (centre of mass)"), "{told}");
     let frames = objects(&monitor.end().out, "frame");
     drop(bridge);
     server.child.kill().unwrap();
@@ -123,6 +127,21 @@ fn a_skeleton_is_passed_on_from_natnet_to_mxtp() {
         (0.7..1.2).contains(&height),
         "the pelvis is {height} m above the ground"
     );
+}
+
+#[test]
+fn a_type_that_natnet_cannot_give_is_refused_when_asked_for() {
+    let arguments = [
+        "stream",
+        "natnet://127.0.0.1:9",
+        "--to",
+        "mxtp://127.0.0.1:9",
+        "--types",
+        "02,24",
+    ];
+    let ended = posewire(Path::new("."), &arguments, b"");
+    assert_eq!(ended.code, Some(2));
+    assert!(ended.err.contains("cannot send type 24"), "{}", ended.err);
 }
 
 #[test]

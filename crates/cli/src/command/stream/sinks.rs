@@ -29,8 +29,8 @@ impl Sinks {
             }
         }
         let mxtp = mxtp_options(arguments, source, &others)?;
-        let types = mxtp.as_ref().map(|options| options.types);
         let mxtp = mxtp.map(|options| MxtpSink::open(&others, options)).transpose()?;
+        let types = mxtp.as_ref().map(MxtpSink::types);
         let options = natnet_options(arguments, source);
         let open = |address| NatNetSink::open(address, options.clone());
         let mut natnet = natnet_addresses
@@ -92,6 +92,9 @@ fn mxtp_options(arguments: &Stream, source: &Source, targets: &[Endpoint]) -> an
         name: arguments.name.clone(),
         fit: matches!(source.endpoint(), Endpoint::NatNet(_)),
     };
+    if options.fit {
+        types::refuse_unfitted(&arguments.types, options.types)?;
+    }
     refuse::too_many(source, &options)?;
     Ok(Some(options))
 }

@@ -7,6 +7,8 @@ use names::BodyNames;
 use posewire_motion::kinematics::complete;
 use posewire_motion::standard::MAX_PROPS;
 use posewire_motion::{DQuat, DVec3, Frame, Marker, Segment, SegmentKind, Skeleton, Subject};
+use posewire_mxtp::MessageType;
+use posewire_mxtp::motion::MessageTypes;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -39,6 +41,26 @@ struct Fit {
 }
 
 impl Fitting {
+    /// What fitted frames never hold.
+    pub(super) const NEVER: MessageTypes = MessageTypes::NONE
+        .with(MessageType::LINEAR)
+        .with(MessageType::ANGULAR)
+        .with(MessageType::TRACKERS)
+        .with(MessageType::CENTER_OF_MASS);
+
+    /// Takes the types that fitted frames never fill out of `types`, and tells of it.
+    pub(super) fn new(types: &mut MessageTypes) -> Self {
+        let mut fitting = Self::default();
+        let wanted = *types;
+        for message_type in Self::NEVER.iter().filter(|never| wanted.contains(*never)) {
+            *types = types.without(message_type);
+            let what = format!("datagram type {message_type} ({})", message_type.name());
+            let why = "the source does not carry what it holds";
+            fitting.leave_out(LeftOut { what, why });
+        }
+        fitting
+    }
+
     /// The character that a subject is; `None` for what is none.
     pub(super) fn character(&mut self, subject: &Arc<Subject>) -> Option<Arc<Subject>> {
         let is_same = |seen: &Seen| Arc::ptr_eq(&seen.source, subject) || seen.source == *subject;

@@ -41,6 +41,15 @@ fn a_body_named_as_mvns_passes_with_props_and_fingers_and_gets_its_angles() {
 }
 
 #[test]
+fn types_that_fitted_frames_never_fill_are_left_out() {
+    let mut types = MessageTypes::DEFAULT;
+    let fitting = Fitting::new(&mut types);
+    assert_eq!(types, MessageTypes::DEFAULT.without(MessageType::CENTER_OF_MASS));
+    let expected = "datagram type 24 (centre of mass): the source does not carry what it holds";
+    assert_eq!(told(&fitting), [expected]);
+}
+
+#[test]
 fn motives_bones_are_found_by_name_and_what_it_lacks_is_said() {
     let bones = [
         "Hip",
