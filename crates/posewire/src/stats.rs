@@ -74,6 +74,8 @@ pub struct Tracking {
     pub tracked: usize,
     /// Frames in which not all of them were tracked, since the subject was first heard of.
     pub frames_untracked: u64,
+    /// Whether no frame has held it yet.
+    pub awaited: bool,
 }
 
 /// How the datagrams of one kind and one numbering are doing.

@@ -30,6 +30,8 @@ pub(crate) struct NatNetTally {
     server: Option<(SocketAddr, ServerInfo)>,
     version: Version,
     model: Option<ModelCounts>,
+    /// The server's clock as it was last known.
+    clock: Option<Clock>,
     params: Option<FrameParams>,
     arrivals: Arrivals,
     camera_to_host: DurationHistogram,
@@ -78,6 +80,7 @@ impl NatNetTally {
             server: None,
             version: Version::UNSPECIFIED,
             model: None,
+            clock: None,
             params: None,
             arrivals: Arrivals::default(),
             camera_to_host: DurationHistogram::new(),
@@ -100,6 +103,10 @@ impl NatNetTally {
 
     pub(crate) fn connected(&mut self, server: SocketAddr, info: ServerInfo) {
         self.version = info.server.natnet_version;
+        let frequency = |info: &ServerInfo| info.connection.map(|connection| connection.clock_frequency);
+        let is_known = |(at, known): &(SocketAddr, ServerInfo)| *at == server && frequency(known) == frequency(&info);
+        let was_known = self.server.as_ref().is_some_and(is_known);
+        self.clock = self.clock.filter(|_| was_known);
         self.server = Some((server, info));
     }
 
@@ -179,7 +186,8 @@ impl NatNetTally {
         let unknown = || (self.frames > 0).then(|| (link.server, ServerInfo::default()));
         let (address, info) = self.server.clone().or_else(unknown)?;
         let counters = self.counters(client.counts());
-        let clock = client.clock(link.steady);
+        let clock = client.clock(link.steady).map(|estimate| utc_clock(&estimate, link));
+        self.clock = clock.or(self.clock);
         let has = |bits| self.params.map(|params| params.contains(bits));
         Some(Box::new(ServerStatistics {
             name: info.server.name.to_string(),
@@ -193,7 +201,7 @@ impl NatNetTally {
             recording: has(FrameParams::RECORDING),
             edit_mode: has(FrameParams::EDIT_MODE),
             frames: self.arrivals.report(DatagramKind::NatNetFrame, counters, ended),
-            clock: clock.map(|estimate| utc_clock(&estimate, link)),
+            clock: self.clock,
             latencies: self.latency_summaries(),
             model: self.model,
             left_out,
@@ -261,6 +269,7 @@ impl Heard {
             segments,
             tracked: if self.latest == frames { self.tracked } else { 0 },
             frames_untracked: (frames - self.before).saturating_sub(self.whole),
+            awaited: self.latest == 0,
         };
         SubjectStatistics {
             subject: Arc::clone(&self.subject),
@@ -340,12 +349,14 @@ mod tests {
         next(&mut tally);
         next(&mut tally);
         tally.subject(&body);
+        assert!(tracking(&tally).awaited);
         sample.position = vec![Some(DVec3::ZERO)];
         tally.sample(&sample);
         let whole = Tracking {
             segments: 1,
             tracked: 1,
             frames_untracked: 0,
+            awaited: false,
         };
         assert_eq!(tracking(&tally), whole);
         next(&mut tally);

@@ -129,6 +129,7 @@ fn subject(id: u32, name: &str, segments: &[&str], position: Vec<Option<DVec3>>,
         segments: segments.len(),
         tracked,
         frames_untracked: 0,
+        awaited: false,
     };
     Character {
         subject: Arc::clone(&frame.subject),
