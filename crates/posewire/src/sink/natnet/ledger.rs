@@ -32,7 +32,7 @@ impl Ledger {
         }
         self.clients.push(ClientProgress {
             address,
-            name: sender.map(|sender| sender.name.to_string()).unwrap_or_default(),
+            name: sender.map(name).unwrap_or_default(),
             version,
             state: ClientState::Connected,
             frames: 0,
@@ -101,6 +101,14 @@ impl Ledger {
     }
 }
 
+/// What a client calls itself. Those of the vendor's Python sample write `Ping` there, which names nobody.
+fn name(sender: &Sender) -> String {
+    match sender.name.to_string() {
+        ping if ping == "Ping" => String::new(),
+        name => name,
+    }
+}
+
 /// Twice as many clients as a server has at once.
 const MAX_REMEMBERED: usize = 128;
 
@@ -122,6 +130,20 @@ mod tests {
         let progress = ledger.progress("natnet://127.0.0.1", false);
         assert_eq!((progress.datagrams, progress.congested, progress.failed), (1, 1, 0));
         assert_eq!((progress.clients[0].frames, progress.clients[0].dropped), (1, 2));
+    }
+
+    #[test]
+    fn ping_is_no_name() {
+        let mut ledger = Ledger::default();
+        for (port, name) in [(1, "Ping"), (2, "ROS")] {
+            let sender = Sender {
+                name: name.into(),
+                ..Sender::default()
+            };
+            ledger.connected(client(port), Some(&sender), Version::new(4, 1));
+        }
+        let names = ledger.clients.iter().map(|client| client.name.as_str());
+        assert_eq!(names.collect::<Vec<_>>(), ["", "ROS"]);
     }
 
     #[test]
