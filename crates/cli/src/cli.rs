@@ -95,6 +95,10 @@ pub(crate) struct Stream {
     #[arg(long)]
     pub(crate) no_wait: bool,
 
+    /// Drop a NatNet client that has said nothing for so many seconds; 10 unless set. Multicast has no clients.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
+    pub(crate) silence: Option<Duration>,
+
     /// Print the numbers at the end as one JSON object.
     #[arg(long)]
     pub(crate) json: bool,

@@ -104,6 +104,23 @@ fn a_stream_begins_when_a_client_connects_and_tells_of_it() {
 }
 
 #[test]
+fn a_silent_client_is_dropped_after_the_time_that_was_set() {
+    let mut server = Server::start("synthetic:walk?rate=60", &["--duration", "30", "--silence", "0.3"]);
+    let client = UdpSocket::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
+    client.set_read_timeout(Some(Duration::from_secs(30))).unwrap();
+    client.send_to(&[0, 0, 0, 0], server.place()).unwrap();
+    let mut buffer = vec![0; 65_535];
+    loop {
+        let length = client.recv(&mut buffer).unwrap();
+        if Packet::decode(&buffer[..length]).unwrap().id == MessageId::DISCONNECT_BY_TIMEOUT {
+            break;
+        }
+    }
+    server.child.kill().unwrap();
+    server.child.wait().unwrap();
+}
+
+#[test]
 fn a_skeleton_is_passed_on_from_natnet_to_mxtp() {
     let monitor = Monitor::start(&["mxtp://127.0.0.1:0", "--json", "--frames", "--count", "20"]);
     let mut server = Server::start("synthetic:walk?rate=60&props=1&fingers=true", &["--duration", "20"]);

@@ -92,6 +92,18 @@ fn wrong_arguments_end_with_2() {
             "leave --types out",
         ),
         (
+            &[
+                "stream",
+                walk,
+                "--to",
+                "natnet://127.0.0.1:0?mode=multicast",
+                "--silence",
+                "5",
+            ],
+            "--silence is for unicast NatNet targets",
+            "leave --silence out",
+        ),
+        (
             &["stream", walk, "--to", "other.mvnx"],
             "motion cannot be sent there",
             "--to mxtp://",

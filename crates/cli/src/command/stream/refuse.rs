@@ -3,8 +3,9 @@
 use crate::cli::{Playback, Revision, Stream};
 use crate::error::Usage;
 use posewire::Source;
-use posewire::endpoint::{Endpoint, Host};
+use posewire::endpoint::{Endpoint, Host, NatNetAddress};
 use posewire::sink::MxtpSinkOptions;
+use posewire_natnet::client::Mode;
 
 /// A live stream comes as it comes: options that would be ignored are refused.
 pub(super) fn playback(arguments: &Playback) -> Result<(), Usage> {
@@ -38,6 +39,18 @@ pub(super) fn mxtp_options(arguments: &Stream) -> Result<(), Usage> {
             help: format!("leave {option} out, or name an MXTP target with --to"),
         }),
     }
+}
+
+/// Only a server that sends to each client has clients to drop.
+pub(super) fn silence(arguments: &Stream, targets: &[&NatNetAddress]) -> Result<(), Usage> {
+    let has_clients = targets.iter().any(|target| target.mode == Mode::Unicast);
+    if arguments.silence.is_none() || has_clients {
+        return Ok(());
+    }
+    Err(Usage {
+        problem: "--silence is for unicast NatNet targets, and there is none".to_owned(),
+        help: "leave --silence out, or name a target such as natnet://0.0.0.0 with --to".to_owned(),
+    })
 }
 
 /// Every subject needs a character number that fits into a byte.

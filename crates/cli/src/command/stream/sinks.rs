@@ -28,6 +28,7 @@ impl Sinks {
                 other => others.push(other.clone()),
             }
         }
+        refuse::silence(arguments, &natnet_addresses)?;
         let mxtp = mxtp_options(arguments, source, &others)?;
         let mxtp = mxtp.map(|options| MxtpSink::open(&others, options)).transpose()?;
         let types = mxtp.as_ref().map(MxtpSink::types);
@@ -105,9 +106,10 @@ fn natnet_options(arguments: &Stream, source: &Source) -> NatNetSinkOptions {
         let captured = arguments.playback.rate.unwrap_or(preview.rate_hz);
         captured * arguments.playback.speed
     });
+    let usual = NatNetSinkOptions::default();
     NatNetSinkOptions {
         name: arguments.name.clone(),
         rate,
-        ..NatNetSinkOptions::default()
+        silence_limit: arguments.silence.or(usual.silence_limit),
     }
 }
