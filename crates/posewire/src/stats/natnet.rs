@@ -16,6 +16,7 @@ use super::arrivals::Arrivals;
 use super::{
     Clock, Counters, DatagramKind, Latencies, ModelCounts, ServerStatistics, Statistics, SubjectStatistics, Tracking,
 };
+use crate::endpoint::NatNetAddress;
 use crate::histogram::DurationHistogram;
 
 /// Counts what arrives from a NatNet server, besides what the client counts.
@@ -29,6 +30,7 @@ pub(crate) struct NatNetTally {
     quirks: BTreeMap<posewire_natnet::Quirk, u64>,
     server: Option<(SocketAddr, ServerInfo)>,
     version: Version,
+    better: Option<NatNetAddress>,
     model: Option<ModelCounts>,
     /// The server's clock as it was last known.
     clock: Option<Clock>,
@@ -79,6 +81,7 @@ impl NatNetTally {
             quirks: BTreeMap::new(),
             server: None,
             version: Version::UNSPECIFIED,
+            better: None,
             model: None,
             clock: None,
             params: None,
@@ -108,6 +111,11 @@ impl NatNetTally {
         let was_known = self.server.as_ref().is_some_and(is_known);
         self.clock = self.clock.filter(|_| was_known);
         self.server = Some((server, info));
+    }
+
+    /// The endpoint to use instead.
+    pub(crate) fn better(&mut self, better: Option<NatNetAddress>) {
+        self.better = better;
     }
 
     /// Whether no server has said yet who it is.
@@ -206,6 +214,7 @@ impl NatNetTally {
             model: self.model,
             left_out,
             refused: client.counts().refused,
+            better: self.better.clone(),
         }))
     }
 

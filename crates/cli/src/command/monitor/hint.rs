@@ -49,6 +49,14 @@ fn is_anybody(address: &NatNetAddress) -> bool {
     matches!(&address.host, Host::Address(ip) if ip.is_unspecified() || ip.to_string() == "255.255.255.255")
 }
 
+/// Whether a host is this machine, as only this machine calls it.
+fn is_loopback(host: &Host) -> bool {
+    match host {
+        Host::Address(ip) => ip.is_loopback(),
+        Host::Name(name) => name == "localhost",
+    }
+}
+
 /// What has come and cannot be read, and what to check.
 fn unreadable(endpoint: &Endpoint, all: &Statistics) -> String {
     let what = match &all.last_malformed {
@@ -76,7 +84,11 @@ fn of_nobody(endpoint: &Endpoint, address: &NatNetAddress) -> String {
     } else {
         (
             format!("no answer from {endpoint} yet"),
-            "the address after natnet://, not Loopback",
+            if is_loopback(&address.host) {
+                "Loopback, as natnet://HOST names this machine"
+            } else {
+                "the address after natnet://, not Loopback"
+            },
         )
     };
     format!(
@@ -119,6 +131,9 @@ fn of_server(address: &NatNetAddress, all: &Statistics) -> String {
              - Rigid Bodies, Skeletons or Labeled Markers are on in Settings > Streaming\n\
              - the assets are ticked in the Assets pane, and something is in view"
         );
+    }
+    if let Some(better) = &server.better {
+        return format!("{name} answers, but sends its frames another way than is expected here: use\n{better}");
     }
     format!(
         "{name} answers, but no frames come. Check that\n\
@@ -182,6 +197,7 @@ mod tests {
             edit_mode: None,
             left_out: 0,
             refused: 0,
+            better: None,
         };
         Statistics {
             server: Some(Box::new(server)),
@@ -217,6 +233,8 @@ mod tests {
             &named,
             &["no answer from", "Broadcast Frame Data", "Local Interface", "UDP 1510"],
         );
+        let here = of(&endpoint("natnet://127.0.0.1"), false, Some(&Statistics::default()));
+        assert_says(&here, &["Local Interface is Loopback"]);
         let anybody = of(&endpoint("natnet://0.0.0.0"), false, None);
         assert_says(&anybody, &["no NatNet server has answered", "natnet://HOST"]);
     }
@@ -228,6 +246,14 @@ mod tests {
             &unicast,
             &["answers, but no frames come", "Transmission Type is Unicast"],
         );
+        let mut known = answering(Mode::Unicast, 0);
+        let Endpoint::NatNet(better) = endpoint("natnet://h?mode=multicast") else {
+            panic!("an address of NatNet");
+        };
+        known.server.as_mut().unwrap().better = Some(better);
+        let known = of(&endpoint("natnet://h"), false, Some(&known));
+        assert_says(&known, &["another way", "natnet://h:1510?mode=multicast"]);
+        assert!(!known.contains("Check"), "{known}");
         let group = of(
             &endpoint("natnet://h?mode=multicast"),
             false,

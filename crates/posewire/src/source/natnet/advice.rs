@@ -17,22 +17,28 @@ pub(super) fn named(server: SocketAddr, info: &ServerInfo) -> String {
     format!("{name} {app}, NatNet {natnet}, at {server}")
 }
 
-/// What is to be changed in the endpoint when the server says that it sends its frames another way.
-pub(super) fn of_delivery(address: &NatNetAddress, info: &ServerInfo) -> Option<String> {
+/// The endpoint to use when the server says that it sends its frames another way.
+pub(super) fn better(address: &NatNetAddress, info: &ServerInfo) -> Option<NatNetAddress> {
     let connection = info.connection?;
     let mut better = NatNetAddress {
         mode: Mode::Unicast,
         ..address.clone()
     };
-    let says = if connection.is_multicast {
+    if connection.is_multicast {
         better.mode = Mode::Multicast;
         better.group = connection.group;
         better.data_port = connection.data_port;
-        format!("to the group {}:{}", connection.group, connection.data_port)
-    } else {
-        "to each client by itself".to_owned()
+    }
+    (better != *address).then_some(better)
+}
+
+/// The way that the server says it sends its frames, and the endpoint for it.
+pub(super) fn of_delivery(better: &NatNetAddress) -> String {
+    let says = match better.mode {
+        Mode::Multicast => format!("to the group {}:{}", better.group, better.data_port),
+        Mode::Unicast => "to each client by itself".to_owned(),
     };
-    (better != *address).then(|| format!("the server says that it sends {says}: use {better}"))
+    format!("the server says that it sends {says}: use {better}")
 }
 
 /// A server that has not answered, and whose frames do not come either.
@@ -116,6 +122,8 @@ mod tests {
     fn a_server_that_sends_another_way_is_answered_with_the_endpoint_that_it_wants() {
         let group = Some(Ipv4Addr::new(239, 1, 1, 1));
         let unicast = address("natnet://h?up=z");
+        let of_delivery =
+            |address: &NatNetAddress, info: &ServerInfo| better(address, info).map(|better| of_delivery(&better));
         let said = of_delivery(&unicast, &info(group)).unwrap();
         let wanted = "natnet://h:1510?mode=multicast&data-port=1600&group=239.1.1.1&up=z";
         assert!(

@@ -92,6 +92,7 @@ impl<'a> Intake<'a> {
             .clock
             .arrival(received.stamp, self.clock.steady().since(self.read_until));
         self.client.handle(arrival, from, received.bytes);
+        self.silence.note_answer();
         self.settle(received.stamp);
         is_frame
     }
@@ -214,10 +215,14 @@ impl<'a> Intake<'a> {
         self.notice(Notice::Connected {
             peer: self.peer.clone(),
         });
-        if let Some(text) = advice::of_delivery(&self.address, &info) {
+        self.silence = Silence::begin();
+        let better = advice::better(&self.address, &info);
+        if let Some(better) = &better {
+            self.silence.note_explained();
+            let text = advice::of_delivery(better);
             self.notice(Notice::Remark { text });
         }
-        self.silence = Silence::begin();
+        self.tally.better(better);
         self.naming.wait();
         self.client.request(self.clock.steady(), FRAME_RATE);
         self.tally.connected(server, info);

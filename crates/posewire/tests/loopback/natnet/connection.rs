@@ -10,6 +10,7 @@ use posewire_natnet::frame::{Frame, MarkerSet};
 use posewire_natnet::model::{Camera, Description};
 use posewire_natnet::server::{Delivery, ServerOptions};
 use std::net::UdpSocket;
+use std::time::Duration;
 
 fn has_remark(notices: &[Notice], part: &str) -> bool {
     let mut remarks = notices.iter().map(ToString::to_string);
@@ -86,9 +87,22 @@ fn a_server_that_multicasts_is_answered_with_the_endpoint_to_use() {
     let sockets = Sockets::bind();
     let at = sockets.command();
     let motive = sockets.serve(options, bodies(&["Wand"]));
-    let gathered = motive.connect("").stop();
+    let receiver = motive.connect("");
+    let is_late = |gathered: &Gathered| {
+        let statistics = gathered.statistics.as_ref();
+        statistics.is_some_and(|all| all.elapsed > Duration::from_millis(3500))
+    };
+    receiver.gatherer.wait_until(is_late);
+    let gathered = receiver.stop();
     let wanted = format!("use natnet://{at}?mode=multicast&group=239.255.42.98");
     assert!(has_remark(&gathered.notices, &wanted), "{:?}", gathered.notices);
+    assert!(
+        !has_remark(&gathered.notices, "is it streaming"),
+        "{:?}",
+        gathered.notices
+    );
+    let better = gathered.server().better.map(|better| better.to_string());
+    assert!(better.is_some_and(|better| wanted.ends_with(&better)));
 }
 
 #[test]

@@ -78,6 +78,7 @@ fn server() -> Server {
         edit_mode: Some(false),
         left_out: 0,
         refused: 0,
+        better: None,
     };
     let frames = TypeRow {
         kind: DatagramKind::NatNetFrame,
