@@ -159,11 +159,12 @@ mod tests {
             ),
             ("natnet://motive-pc", "natnet://motive-pc:1510?mode=unicast"),
             (
-                "natnet://10.0.0.5:1600?copy=true&skeleton=local&up=z&interface=eth0&group=239.1.1.1&data-port=0\
+                "natnet://10.0.0.5:1600?skeleton=local&up=z&interface=eth0&group=239.1.1.1&data-port=0\
                  &version=3.1&mode=multicast",
                 "natnet://10.0.0.5:1600?mode=multicast&version=3.1&data-port=0&group=239.1.1.1&interface=eth0&up=z\
-                 &skeleton=local&copy=true",
+                 &skeleton=local",
             ),
+            ("natnet://h?copy=true", "natnet://h:1510?mode=unicast&copy=true"),
             (
                 "natnet://[::1]?data-port=1511&group=239.255.42.99&up=y&skeleton=global&copy=false",
                 "natnet://[::1]:1510?mode=unicast",
@@ -241,6 +242,14 @@ mod tests {
                  found \"10.0.0.1\"",
             ),
             (
+                "natnet://h?group=239.1.1.1",
+                "natnet://h?group=239.1.1.1: expected multicast as the mode of a group, found \"unicast\"",
+            ),
+            (
+                "natnet://h?mode=multicast&copy=true",
+                "natnet://h?mode=multicast&copy=true: expected unicast as the mode of copies, found \"multicast\"",
+            ),
+            (
                 "natnet://h?version=4.6",
                 "natnet://h?version=4.6: expected a version from 1.4 to 4.5 as the version, found \"4.6\"",
             ),
@@ -303,11 +312,11 @@ mod tests {
                 mode: if multicast { Mode::Multicast } else { Mode::Unicast },
                 version,
                 data_port,
-                group,
+                group: if multicast { group } else { NatNetAddress::GROUP },
                 interface,
                 up: if z { Up::Z } else { Up::Y },
                 skeleton: if local { Coordinates::Local } else { Coordinates::Global },
-                copy,
+                copy: copy && !multicast,
                 ..NatNetAddress::new(host, port)
             })
         })

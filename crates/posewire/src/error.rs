@@ -293,6 +293,9 @@ fn url_help(part: &str) -> String {
         "interface" => "name it as the system does, as in interface=eth0, or by address".into(),
         "generator" => "write synthetic:walk, as in synthetic:walk?people=2&rate=240".into(),
         "scheme" => "write mxtp://HOST:PORT, mxtp+tcp://HOST:PORT or synthetic:walk".into(),
+        "mode of a group" => "add mode=multicast, or leave group out".into(),
+        "mode of copies" => "leave copy out: everybody in a group gets its frames".into(),
+        "copy of a source" => "leave copy out, which is for servers, behind --to".into(),
         option => format!("correct {option}, or leave it out for its default"),
     }
 }

@@ -97,8 +97,18 @@ impl NatNetAddress {
             is_group(*group)
         })?;
         let copy = url.parsed("copy", "true or false", |_| true)?;
+        let mode = choice(&url, "mode", "unicast or multicast", &MODES)?.unwrap_or(Mode::Unicast);
+        match mode {
+            Mode::Unicast if group.is_some_and(|group| group != Self::GROUP) => {
+                return Err(url.mistake("mode of a group", "multicast", word(&mode, &MODES)));
+            }
+            Mode::Multicast if copy == Some(true) => {
+                return Err(url.mistake("mode of copies", "unicast", word(&mode, &MODES)));
+            }
+            _ => {}
+        }
         Ok(Self {
-            mode: choice(&url, "mode", "unicast or multicast", &MODES)?.unwrap_or(Mode::Unicast),
+            mode,
             version: url.parsed("version", "a version from 1.4 to 4.5", |version| is_known(*version))?,
             data_port: data_port.unwrap_or(Self::DATA_PORT),
             group: group.unwrap_or(Self::GROUP),

@@ -2,6 +2,7 @@
 
 use std::net::SocketAddr;
 
+use posewire_natnet::Version;
 use posewire_natnet::client::{LostReason, Mode};
 use posewire_natnet::command::ServerInfo;
 use posewire_natnet::model::{Description, Model};
@@ -22,6 +23,7 @@ pub(super) fn better(address: &NatNetAddress, info: &ServerInfo) -> Option<NatNe
     let connection = info.connection?;
     let mut better = NatNetAddress {
         mode: Mode::Unicast,
+        group: NatNetAddress::GROUP,
         ..address.clone()
     };
     if connection.is_multicast {
@@ -44,6 +46,18 @@ pub(super) fn of_delivery(better: &NatNetAddress) -> String {
 /// A server that has not answered, and whose frames do not come either.
 pub(super) fn of_nobody(server: SocketAddr) -> String {
     format!("no answer from {server} yet, asking on: is Motive streaming, and is that its Local Interface?")
+}
+
+/// What the server sends instead of the version that it was asked for, if it does.
+pub(super) fn of_version(address: &NatNetAddress, sent: Version) -> Option<String> {
+    let wish = address.version.filter(|wish| *wish != sent)?;
+    let why = match address.mode {
+        Mode::Multicast => "as everybody in a group gets the same",
+        Mode::Unicast => "and is read so",
+    };
+    Some(format!(
+        "NatNet {wish} was asked for, but the server sends {sent}, {why}"
+    ))
 }
 
 /// Frames of a server that does not answer are of no known version.

@@ -43,6 +43,8 @@ pub(super) struct Intake<'a> {
     begun: Instant,
     /// What was last said of a server that has never answered.
     of_no_answer: Option<String>,
+    /// What was last said of the version that the server sends.
+    of_version: Option<String>,
     /// What was last said of what the server describes.
     of_model: Option<String>,
     told_of_sets: bool,
@@ -68,6 +70,7 @@ impl<'a> Intake<'a> {
             left_out: 0,
             begun: Instant::now(),
             of_no_answer: None,
+            of_version: None,
             of_model: None,
             told_of_sets: false,
             reports: Reports::new(),
@@ -123,6 +126,7 @@ impl<'a> Intake<'a> {
         self.release(false);
         self.remark_on_silence(sockets);
         self.remark_on_no_answer();
+        self.remark_on_version();
         self.look_for_left_out();
         if self.reports.is_due() {
             self.report(sockets, false);
@@ -340,6 +344,17 @@ impl<'a> Intake<'a> {
         }
     }
 
+    /// Says once that another version comes than was asked for, as soon as that is settled.
+    fn remark_on_version(&mut self) {
+        let is_settled = self.client.server_info().is_some() && self.silence.answers_for(SETTLED_AFTER);
+        let sent = self.client.version().filter(|_| is_settled);
+        let text = sent.and_then(|sent| advice::of_version(&self.address, sent));
+        if let Some(text) = text.filter(|text| self.of_version.as_ref() != Some(text)) {
+            self.of_version = Some(text.clone());
+            self.notice(Notice::Remark { text });
+        }
+    }
+
     fn report(&mut self, sockets: &Sockets, ended: bool) {
         let link = Link {
             server: self.server,
@@ -369,3 +384,5 @@ fn client_options(address: &NatNetAddress, server: SocketAddr) -> ClientOptions 
 
 const FRAME_RATE: &str = "FrameRate";
 const LISTEN_AFTER: Duration = Duration::from_secs(1);
+/// How long a server may take to grant a version.
+const SETTLED_AFTER: Duration = Duration::from_secs(1);

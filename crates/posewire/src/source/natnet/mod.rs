@@ -19,7 +19,7 @@ use crate::endpoint::{Endpoint, NatNetAddress};
 use crate::net;
 use crate::session::Outlet;
 use crate::stop::Stop;
-use crate::{Notice, Result};
+use crate::{Error, Notice, Result};
 
 /// A NatNet server that is to be connected to.
 #[derive(Debug)]
@@ -38,6 +38,14 @@ enum Place {
 
 impl NatNet {
     pub(super) fn open(address: &NatNetAddress) -> Result<Self> {
+        if address.copy {
+            return Err(Error::Url {
+                url: Endpoint::NatNet(address.clone()).to_string(),
+                part: "copy of a source",
+                expected: "false",
+                found: "true".to_owned(),
+            });
+        }
         let server = net::resolve_first(&address.host, address.port)?;
         let place = if is_anybody(server.ip()) {
             Place::Unknown

@@ -12,6 +12,8 @@ pub(super) struct Silence {
     since: Option<Instant>,
     /// Since when it answers, or when its last frame came.
     quiet_since: Option<Instant>,
+    /// Since when it answers.
+    connected: Option<Instant>,
     /// When anything came from it.
     answered: Option<Instant>,
     told: bool,
@@ -28,6 +30,7 @@ impl Silence {
         Self {
             since,
             quiet_since: since,
+            connected: since,
             answered: since,
             ..Self::default()
         }
@@ -48,6 +51,11 @@ impl Silence {
         self.since = None;
         self.quiet_since = self.quiet_since.map(|_| Instant::now());
         self.told = false;
+    }
+
+    /// Whether it has answered for so long.
+    pub(super) fn answers_for(&self, time: Duration) -> bool {
+        self.connected.is_some_and(|since| since.elapsed() >= time)
     }
 
     /// Whether not one frame has come for so long.

@@ -106,6 +106,19 @@ fn a_server_that_multicasts_is_answered_with_the_endpoint_to_use() {
 }
 
 #[test]
+fn a_version_that_is_not_granted_is_told_of_and_a_copy_is_refused() {
+    let motive = Motive::unicast(Version::new(3, 1), bodies(&["Wand"]));
+    let receiver = motive.connect("?version=4.1");
+    let wanted = "NatNet 4.1 was asked for, but the server sends 3.1";
+    receiver
+        .gatherer
+        .wait_until(|gathered| has_remark(&gathered.notices, wanted));
+    receiver.stop();
+    let error = open(&format!("natnet://{}?copy=true", motive.command())).unwrap_err();
+    assert!(error.to_string().contains("copy of a source"), "{error}");
+}
+
+#[test]
 fn a_group_whose_server_answers_nobody_is_read_as_the_version_that_is_named() {
     let (sockets, silent) = (Sockets::bind(), UdpSocket::bind("127.0.0.1:0").unwrap());
     let at = silent.local_addr().unwrap();
