@@ -206,7 +206,8 @@ pub(crate) struct Inspect {
     after_help = "\
 The file holds one datagram, or several back to back: of MXTP as TCP carries them, of NatNet by the sizes they state.
 
-No NatNet packet says which bitstream it is of. Without --version the newest whose layout fits is taken.
+No NatNet frame or description says which bitstream it is of. Without --version it is what a SERVERINFO in the same input
+says, else the newest whose layout fits all of them.
 
 Examples:
   posewire explain packet.bin
@@ -223,7 +224,7 @@ pub(crate) struct Explain {
     pub(crate) protocol: Option<Protocol>,
 
     /// The bitstream that NatNet frames and descriptions are of.
-    #[arg(long, value_name = "M.m")]
+    #[arg(long, value_name = "M.m", value_parser = bitstream)]
     pub(crate) version: Option<Version>,
 
     /// Print JSON, one object for each datagram.
@@ -270,6 +271,17 @@ pub(crate) struct Demo {
     /// Print a table a second instead of the live page, as when the output is no terminal.
     #[arg(long)]
     pub(crate) plain: bool,
+}
+
+/// A version of which the layout is known.
+fn bitstream(text: &str) -> Result<Version, String> {
+    let [oldest, ..] = Version::LAYOUTS;
+    let is_known = |version: &Version| {
+        let plain = Version::new(version.major, version.minor) == *version;
+        plain && (oldest..=Version::LATEST).contains(version)
+    };
+    let version = text.parse().ok().filter(is_known);
+    version.ok_or_else(|| format!("expected a version from {oldest} to {}", Version::LATEST))
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {
