@@ -97,9 +97,9 @@ pub(crate) fn broadcasts_beside(address: IpAddr) -> Vec<Ipv4Addr> {
     if cfg!(not(target_os = "linux")) || own.is_unspecified() || own.is_multicast() || own.is_broadcast() {
         return Vec::new();
     }
-    let is_on = |found: &LocalInterface| match own.is_loopback() {
-        true => found.addresses.iter().any(IpAddr::is_loopback),
-        false => found.addresses.contains(&address),
+    let is_on = |found: &LocalInterface| {
+        let is_loopback = own.is_loopback() && found.addresses.iter().any(IpAddr::is_loopback);
+        is_loopback || found.addresses.contains(&address)
     };
     let mut all: Vec<_> = list()
         .into_iter()
