@@ -4,7 +4,7 @@ mod server;
 
 pub(crate) use server::{delivery, kind, model, unknown_latencies};
 
-use crate::plain::{cut, printable};
+use crate::plain::{cut, plural, printable};
 use posewire::sink::{ClientProgress, Progress};
 use posewire::source::Preview;
 use posewire::stats::{Statistics, StreamStatistics, SubjectStatistics};
@@ -21,14 +21,14 @@ pub(crate) fn who(preview: &Preview) -> String {
         1 => " and 1 other".to_owned(),
         more => format!(" and {more} others"),
     };
-    let segments = subject.skeleton.segments.len();
+    let segments = plural(subject.skeleton.segments.len() as u64, "segment");
     let name = printable(&subject.name);
-    format!(": {name}{others}, {segments} segments, {} Hz", preview.rate_hz)
+    format!(": {name}{others}, {segments}, {} Hz", preview.rate_hz)
 }
 
 /// How far a stream has come, on one line.
 pub(crate) fn progress_line(progress: &Progress) -> String {
-    let mut line = format!("{} samples sent, {}", progress.frames, lateness(progress));
+    let mut line = format!("{} sent{}", plural(progress.frames, "sample"), lateness(progress));
     match progress.lost() {
         0 => {}
         lost => _ = write!(line, ", {lost} LOST"),
@@ -37,12 +37,15 @@ pub(crate) fn progress_line(progress: &Progress) -> String {
 }
 
 fn lateness(progress: &Progress) -> String {
-    format!("lateness {}", progress.lateness)
+    match progress.frames {
+        0 => String::new(),
+        _ => format!(", lateness {}", progress.lateness),
+    }
 }
 
 /// How a stream went, a line for each target. `unsent` is what was lost here before it could be sent.
 pub(crate) fn stream_summary(progress: &Progress, unsent: u64) -> String {
-    let mut text = format!("sent {} samples, {}", progress.frames, lateness(progress));
+    let mut text = format!("sent {}{}", plural(progress.frames, "sample"), lateness(progress));
     if unsent > 0 {
         _ = write!(
             text,
@@ -112,10 +115,10 @@ fn subject_table(text: &mut String, of_subject: &SubjectStatistics) {
     let subject = &of_subject.subject;
     _ = write!(
         text,
-        "character {} {}, {} segments",
+        "character {} {}, {}",
         subject.id,
         printable(&subject.name),
-        subject.skeleton.segments.len()
+        plural(subject.skeleton.segments.len() as u64, "segment")
     );
     if let Some(timecode) = of_subject.timecode {
         _ = write!(text, ", {timecode}");
@@ -158,3 +161,16 @@ fn milliseconds(duration: Duration) -> f64 {
 }
 
 const TABLE_HEAD: &str = "  ty type                 Hz strd   whole missed  dup late rst inc p99 ms max ms\n";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_not_sent_was_not_late() {
+        let mut progress = Progress::default();
+        assert_eq!(stream_summary(&progress, 0), "sent 0 samples");
+        progress.frames = 1;
+        assert!(stream_summary(&progress, 0).starts_with("sent 1 sample, lateness p50 0.00 ms"));
+    }
+}

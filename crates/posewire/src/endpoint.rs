@@ -164,6 +164,7 @@ mod tests {
                 "natnet://10.0.0.5:1600?mode=multicast&version=3.1&data-port=0&group=239.1.1.1&interface=eth0&up=z\
                  &skeleton=local",
             ),
+            ("natnet://h?up=Z&mode=Multicast", "natnet://h:1510?mode=multicast&up=z"),
             ("natnet://h?copy=true", "natnet://h:1510?mode=unicast&copy=true"),
             (
                 "natnet://[::1]?data-port=1511&group=239.255.42.99&up=y&skeleton=global&copy=false",
@@ -251,7 +252,7 @@ mod tests {
             ),
             (
                 "natnet://h?version=4.6",
-                "natnet://h?version=4.6: expected a version from 1.4 to 4.5 as the version, found \"4.6\"",
+                "natnet://h?version=4.6: expected a number from 1.4 to 4.5 as the version, found \"4.6\"",
             ),
             (
                 "natnet://h?up=x",

@@ -340,11 +340,17 @@ fn socket_help(action: &str, address: &str, kind: io::ErrorKind) -> Option<Strin
     let text = match kind {
         io::ErrorKind::AddrInUse if action == Error::SERVE_COMMANDS => {
             format!(
-                "another program, such as Motive, has {place}: stop it, or choose another port as in natnet://HOST:1520"
+                "another program, such as Motive, has {place}: stop it, or choose other ports as in \
+                 natnet://HOST:1520?data-port=1521"
             )
         }
         io::ErrorKind::AddrInUse if action == Error::SERVE_FRAMES => {
-            format!("another program has {place}: stop it, or choose another port as in natnet://HOST?data-port=1521")
+            format!(
+                "another program has {place}: stop it, or choose other ports as in natnet://HOST:1520?data-port=1521"
+            )
+        }
+        io::ErrorKind::InvalidInput if place.ends_with(":0") => {
+            "name the port, as Motive's 1510 or MVN's 9763, or leave it out for that".into()
         }
         io::ErrorKind::AddrInUse => {
             format!("another program listens on {place}: stop it or choose another port")
@@ -399,6 +405,16 @@ mod tests {
             error.help().as_deref(),
             Some("another program listens on 127.0.0.1:9763: stop it or choose another port")
         );
+    }
+
+    #[test]
+    fn a_taken_port_of_motive_is_answered_with_two_others() {
+        for action in [Error::SERVE_COMMANDS, Error::SERVE_FRAMES] {
+            let help = socket_help(action, "udp 0.0.0.0:1510", io::ErrorKind::AddrInUse).unwrap();
+            assert!(help.ends_with("natnet://HOST:1520?data-port=1521"), "{help}");
+        }
+        let help = socket_help("connect to", "udp 10.0.0.7:0", io::ErrorKind::InvalidInput);
+        assert!(help.is_some_and(|help| help.starts_with("name the port")));
     }
 
     #[test]

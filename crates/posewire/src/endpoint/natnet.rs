@@ -109,7 +109,7 @@ impl NatNetAddress {
         }
         Ok(Self {
             mode,
-            version: url.parsed("version", "a version from 1.4 to 4.5", |version| is_known(*version))?,
+            version: url.parsed("version", "a number from 1.4 to 4.5", |version| is_known(*version))?,
             data_port: data_port.unwrap_or(Self::DATA_PORT),
             group: group.unwrap_or(Self::GROUP),
             interface: parse_interface(&url)?,
@@ -152,12 +152,12 @@ impl fmt::Display for NatNetAddress {
     }
 }
 
-/// The value of an option that has a few words.
+/// The value of an option that has a few words, which people write as Motive does or in small letters.
 fn choice<T: Copy>(url: &Url<'_>, key: &'static str, expected: &'static str, words: &[(&str, T)]) -> Result<Option<T>> {
     let Some(text) = url.option(key) else {
         return Ok(None);
     };
-    match words.iter().find(|(word, _)| *word == text) {
+    match words.iter().find(|(word, _)| word.eq_ignore_ascii_case(text)) {
         Some((_, value)) => Ok(Some(*value)),
         None => Err(url.mistake(key, expected, text)),
     }
