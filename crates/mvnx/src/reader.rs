@@ -216,7 +216,7 @@ pub fn read_take<R: BufRead>(reader: &mut Reader<R>) -> Result<Take, Error> {
     let mut take = Take::new(Arc::clone(&reader.subject), rate);
     for frame in reader {
         // Every section was checked against the same definitions that the skeleton is made of.
-        let _ = take.push(frame?);
+        let _ = take.push(&frame?);
     }
     Ok(take)
 }
