@@ -48,4 +48,10 @@ pub enum Error {
         /// Numbers there are.
         found: usize,
     },
+    /// A rate at which nothing can be sampled.
+    #[error("not a rate to sample at: expected more than 0 Hz and at most 1,000 times the rate before, found {found}")]
+    Rate {
+        /// The rate, samples a second.
+        found: f64,
+    },
 }
