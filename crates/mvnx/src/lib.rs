@@ -26,24 +26,29 @@
 //! ```
 
 mod calibration;
+mod document;
 mod error;
 mod frame;
 mod head;
 mod header;
 mod input;
+mod markup;
 mod null_pose;
 mod number;
 mod reader;
+mod remainder;
 mod section;
 mod sections;
 mod skeleton;
 mod xml;
 
 pub use calibration::{Calibration, CalibrationKind};
+pub use document::Document;
 pub use error::{Error, Place};
 pub use header::{
     ConnectorDefinition, ErgonomicAngleDefinition, Hands, Header, JointDefinition, PointDefinition, SegmentDefinition,
     UnknownElement,
 };
 pub use reader::{FrameCounts, Reader, read_take};
+pub use remainder::Remainder;
 pub use sections::SectionInfo;

@@ -1,6 +1,9 @@
 //! The streaming reader.
 
+mod whole;
+
 use crate::calibration::{Calibration, CalibrationKind, read_calibration};
+use crate::document::Around;
 use crate::error::clip;
 use crate::frame::{FrameReader, FrameTag};
 use crate::head::{keep_unknown, read_head, read_tail};
@@ -39,6 +42,8 @@ pub struct Reader<R> {
     salvage: bool,
     damage: Option<Error>,
     state: State,
+    /// What stands around the frames, to be written again.
+    around: Around,
 }
 
 /// How many frames of each type were read so far.
@@ -70,12 +75,14 @@ impl<R: BufRead> Reader<R> {
     /// no sense.
     pub fn new(bytes: R) -> Result<Self, Error> {
         let mut xml = Xml::new(Input::new(bytes)?);
+        Around::begin(&mut xml);
         let mut header = read_head(&mut xml)?;
         let layout = Layout::new(&header);
         let (mut calibration, mut counts) = (Vec::new(), FrameCounts::default());
         let state = read_calibrations(&mut xml, &mut header, &layout, &mut calibration, &mut counts)?;
         let subject = Arc::new(build_subject(&header, &calibration)?);
         let frames = FrameReader::new(layout, corrections(&header, &subject));
+        let around = Around::of_head(&mut xml, matches!(state, State::Tag(_)));
         let mut reader = Self {
             xml,
             header,
@@ -87,9 +94,10 @@ impl<R: BufRead> Reader<R> {
             salvage: false,
             damage: None,
             state,
+            around,
         };
         if matches!(reader.state, State::Done) {
-            read_tail(&mut reader.xml, &mut reader.header)?;
+            reader.read_tail()?;
         }
         Ok(reader)
     }
@@ -152,7 +160,7 @@ impl<R: BufRead> Reader<R> {
                 State::Tag(tag) => tag,
                 State::Between => {
                     let Some(tag) = next_tag(&mut self.xml, &mut self.header)? else {
-                        read_tail(&mut self.xml, &mut self.header)?;
+                        self.read_tail()?;
                         return Ok(None);
                     };
                     tag
@@ -165,6 +173,14 @@ impl<R: BufRead> Reader<R> {
             let to = &mut self.calibration;
             read_other(&mut self.xml, &tag, &self.layout, to, &mut self.counts)?;
         }
+    }
+
+    /// Reads from the end tag of the frames to the end of the file.
+    fn read_tail(&mut self) -> Result<(), Error> {
+        Around::begin_tail(&mut self.xml);
+        read_tail(&mut self.xml, &mut self.header)?;
+        self.around.end_tail(&mut self.xml);
+        Ok(())
     }
 
     fn read_frame(&mut self, tag: &FrameTag) -> Result<Frame, Error> {

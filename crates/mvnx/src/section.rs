@@ -120,6 +120,11 @@ impl Layout {
         self.joints + self.left_finger_joints + self.right_finger_joints
     }
 
+    /// The section with this element name, when the file has what it has entries for.
+    pub(crate) fn section(&self, name: &str) -> Option<Section> {
+        Section::of(name).filter(|&section| self.entries(section) > 0)
+    }
+
     /// How many entries a section has. None means that the file has it, if at all, without saying of what.
     pub(crate) fn entries(&self, section: Section) -> usize {
         match section.per() {

@@ -2,6 +2,7 @@
 
 use crate::error::clip;
 use crate::input::{Input, io_error};
+use crate::markup::Markup;
 use crate::{Error, Place};
 use quick_xml::XmlVersion;
 use quick_xml::events::{BytesRef, BytesStart, Event};
@@ -25,6 +26,8 @@ pub(crate) struct Xml<R> {
     /// How long the path was before each open element.
     depths: Vec<usize>,
     raw: Option<Raw>,
+    /// What is read is added here, so that it can be written again.
+    record: Option<Markup>,
 }
 
 /// What a step of an [`Xml`] reader stands on.
@@ -68,7 +71,23 @@ impl<R: BufRead> Xml<R> {
             path: String::new(),
             depths: Vec::new(),
             raw: None,
+            record: None,
         }
+    }
+
+    /// Adds all markup that is read from here on to `to`.
+    pub(crate) fn record(&mut self, to: Markup) {
+        self.record = Some(to);
+    }
+
+    /// Ends the recording and gives it back, if there was one.
+    pub(crate) fn recorded(&mut self) -> Option<Markup> {
+        self.record.take()
+    }
+
+    /// The start tag read last, without its brackets.
+    pub(crate) fn tag(&self) -> &str {
+        &self.tag
     }
 
     /// Where the step begins on which the reader stands.
@@ -193,6 +212,9 @@ impl<R: BufRead> Xml<R> {
             };
             if let Some(raw) = &mut self.raw {
                 raw.push_event(&event);
+            }
+            if let Some(record) = &mut self.record {
+                record.push_event(&event, self.events.get_ref().place() != self.place);
             }
             return match event {
                 Event::Start(tag) | Event::Empty(tag) => {

@@ -1,0 +1,94 @@
+//! All that stands around the frames of a file.
+
+use crate::Calibration;
+use crate::header::Header;
+use crate::input::MAX_PIECE;
+use crate::markup::{Kind, Markup, Piece};
+use crate::xml::Xml;
+use posewire_motion::Subject;
+use std::io::BufRead;
+use std::sync::Arc;
+
+/// All that stands around the frames of a file, so that a [`Writer`](crate::Writer) can write it again: the definitions, the
+/// poses of calibration, and every attribute, comment and unknown element in its place.
+///
+/// It comes from a file by [`Reader::document`](crate::Reader::document), or from a subject of any other source by
+/// [`Document::describe`].
+#[derive(Clone, Debug)]
+pub struct Document {
+    pub(crate) header: Header,
+    pub(crate) subject: Arc<Subject>,
+    pub(crate) calibration: Vec<Calibration>,
+    pub(crate) around: Around,
+}
+
+impl Document {
+    /// What the file says, unconverted.
+    pub fn header(&self) -> &Header {
+        &self.header
+    }
+
+    /// Whose motion it is, in the canonical convention.
+    pub fn subject(&self) -> &Arc<Subject> {
+        &self.subject
+    }
+
+    /// The poses of calibration.
+    pub fn calibration(&self) -> &[Calibration] {
+        &self.calibration
+    }
+}
+
+/// The markup of a file before its first normal frame and behind its last one.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Around {
+    /// Ends within `<frames>`.
+    pub(crate) head: Markup,
+    /// Begins within `<frames>`; empty until the file is read to its end.
+    pub(crate) tail: Markup,
+    /// Milliseconds of UTC since 1970 at which the day of the first frame began.
+    pub(crate) midnight: Option<u64>,
+}
+
+impl Around {
+    /// Begins to keep what is read.
+    pub(crate) fn begin<R: BufRead>(xml: &mut Xml<R>) {
+        xml.record(Markup::new(MAX_AROUND));
+    }
+
+    /// Ends the head. The reader stands on the start tag of a frame, or on the end tag of the frames.
+    pub(crate) fn of_head<R: BufRead>(xml: &mut Xml<R>, on_frame: bool) -> Self {
+        let mut head = xml.recorded().unwrap_or_default();
+        head.take_back(if on_frame { Kind::Start } else { Kind::End });
+        Self {
+            head,
+            tail: Markup::default(),
+            midnight: on_frame.then(|| midnight(xml.tag())).flatten(),
+        }
+    }
+
+    /// Begins the tail. The reader stands on the end tag of the frames.
+    pub(crate) fn begin_tail<R: BufRead>(xml: &mut Xml<R>) {
+        let tail = xml.recorded().unwrap_or_else(|| {
+            let mut tail = Markup::new(MAX_AROUND);
+            tail.push(Kind::End, "");
+            tail
+        });
+        xml.record(tail);
+    }
+
+    /// Ends the tail with the file.
+    pub(crate) fn end_tail<R: BufRead>(&mut self, xml: &mut Xml<R>) {
+        self.tail = xml.recorded().unwrap_or_default();
+    }
+}
+
+/// When the day began on which the frame of this start tag was recorded.
+fn midnight(tag: &str) -> Option<u64> {
+    let milliseconds: u64 = Piece::start(tag).attribute("ms")?.trim().parse().ok()?;
+    (milliseconds > 0).then(|| milliseconds - milliseconds % MILLISECONDS_PER_DAY)
+}
+
+pub(crate) const MILLISECONDS_PER_DAY: u64 = 86_400_000;
+/// More than the reader's own bound of the head.
+const MAX_AROUND: usize = 32 * MAX_PIECE;
