@@ -8,8 +8,8 @@ use std::sync::Arc;
 
 /// How far velocities and angular velocities of samples are from the [differences](Differences) of their poses.
 ///
-/// Nobody measures velocities exactly: a source filters them, and differences of three samples blur what is fast. What
-/// is off by a large share was computed at another rate, in another unit or in other axes.
+/// Nobody measures velocities exactly: a source filters them, and differences of three samples blur what is fast. Those
+/// that are off by a large part of their size were computed at another rate, in another unit or in other axes.
 #[derive(Clone, Debug)]
 pub struct DerivativeDifferences {
     differences: Differences,
@@ -88,16 +88,14 @@ impl DerivativeDifferences {
 }
 
 impl Comparison {
-    /// The root mean square of the distances, by that of the source's vectors: 0 when they agree, 1 and more when they
-    /// have nothing to do with each other. `None` when nothing was compared or nothing moved.
-    pub fn share(&self) -> Option<f64> {
-        let share = (self.off / self.given).sqrt();
-        share.is_finite().then_some(share)
+    /// The root mean square of the distances; `None` when nothing was compared.
+    pub fn difference(&self) -> Option<f64> {
+        (self.count > 0).then(|| (self.off / self.count as f64).sqrt())
     }
 
-    /// The root mean square of the distances; `None` when nothing was compared.
-    pub fn root_mean_square(&self) -> Option<f64> {
-        (self.count > 0).then(|| (self.off / self.count as f64).sqrt())
+    /// The root mean square of the lengths of the source's vectors; `None` when nothing was compared.
+    pub fn given(&self) -> Option<f64> {
+        (self.count > 0).then(|| (self.given / self.count as f64).sqrt())
     }
 
     fn add(&mut self, sample: u32, given: &[Option<DVec3>], computed: &[Option<DVec3>]) {
@@ -141,21 +139,24 @@ mod tests {
     fn velocities_that_fit_are_hardly_off() {
         let check = walk(1.0);
         assert_eq!((check.velocity().count, check.angular_velocity().count), (4600, 4600));
-        assert!(check.velocity().share().unwrap() < 1e-4);
-        assert!(check.angular_velocity().share().unwrap() < 1e-9);
+        assert!(check.velocity().difference().unwrap() < 1e-4);
+        assert!(check.angular_velocity().difference().unwrap() < 1e-9);
     }
 
     #[test]
-    fn velocities_of_another_rate_are_off_by_a_large_share() {
+    fn velocities_of_another_rate_are_off() {
         let check = walk(2.4);
-        assert!((check.velocity().share().unwrap() - 1.4 / 2.4).abs() < 1e-3);
+        assert!((check.velocity().difference().unwrap() - 1.4).abs() < 1e-3);
+        assert!((check.velocity().given().unwrap() - 2.4).abs() < 1e-9);
         let (_, largest) = Largest::of_all(&check.velocity().largest).unwrap();
         assert!((largest.value - 1.4).abs() < 1e-3);
     }
 
     #[test]
-    fn who_does_not_move_tells_no_share() {
-        assert_eq!(walk(0.0).velocity().share(), None);
-        assert_eq!(Comparison::default().root_mean_square(), None);
+    fn without_velocities_nothing_is_compared() {
+        let mut check = DerivativeDifferences::new(100.0);
+        check.add(&Frame::new(Arc::new(Subject::new("Ada", Skeleton::default()))));
+        check.finish();
+        assert_eq!((check.velocity().difference(), check.velocity().given()), (None, None));
     }
 }
