@@ -1,0 +1,210 @@
+//! What each format holds, and in which axes and unit.
+
+use super::{Axes, LeftOut};
+use crate::endpoint::FileFormat;
+use crate::{Error, Result};
+use posewire_motion::{Section, Space, Take, Unit};
+
+/// What of a take, besides numbers in sections, a format holds.
+struct Holds {
+    sections: &'static [Section],
+    contacts: bool,
+    markers: bool,
+    events: bool,
+    timecodes: bool,
+}
+
+impl FileFormat {
+    /// The axes and the unit to write, where some may be asked for.
+    ///
+    /// # Errors
+    /// [`Error::Fixed`] when the format has others.
+    pub(super) fn space(self, axes: Option<Axes>, unit: Option<Unit>) -> Result<Space> {
+        let (usual_axes, usual_unit) = self.usual();
+        let allowed = self.allowed_axes();
+        if let Some(found) = axes.filter(|axes| !allowed.contains(axes)) {
+            let names: Vec<_> = allowed.iter().map(|axes| axes.name()).collect();
+            return Err(self.fixed("axes", names.join(" or "), found.name()));
+        }
+        if let Some(found) = unit.filter(|unit| self.has_fixed_unit() && *unit != usual_unit) {
+            return Err(self.fixed("unit", symbol(usual_unit).to_owned(), symbol(found)));
+        }
+        let of_engine = match axes {
+            Some(Axes::Unity) => Unit::Metre,
+            Some(Axes::Unreal) => Unit::Centimetre,
+            _ => usual_unit,
+        };
+        let axes = axes.unwrap_or(usual_axes);
+        Ok(axes.space(unit.unwrap_or(of_engine)))
+    }
+
+    /// What of a take it cannot hold. Sections that were not asked for are not missed.
+    pub(super) fn leaves_out(self, take: &Take, asked: Option<&[Section]>) -> LeftOut {
+        let holds = self.holds();
+        let mut left_out = LeftOut::new();
+        let missed = take.sections().filter(|section| {
+            let wanted = asked.is_none_or(|asked| asked.contains(section));
+            wanted && !holds.sections.contains(section)
+        });
+        missed.for_each(|section| left_out.push(section.name().replace('_', " ")));
+        if asked.is_some() {
+            return left_out;
+        }
+        let places = || 0..take.len();
+        let others = [
+            (
+                "foot contacts",
+                !holds.contacts && places().any(|place| !take.contacts(place).is_empty()),
+            ),
+            (
+                "markers",
+                !holds.markers && places().any(|place| !take.markers(place).is_empty()),
+            ),
+            ("events", !holds.events && !take.events().is_empty()),
+            (
+                "the time of day",
+                !holds.timecodes && take.timecodes().iter().any(Option::is_some),
+            ),
+        ];
+        others
+            .iter()
+            .filter(|(_, missed)| *missed)
+            .for_each(|(what, _)| left_out.push(*what));
+        left_out
+    }
+
+    /// What its tools expect.
+    const fn usual(self) -> (Axes, Unit) {
+        match self {
+            Self::Mvnx | Self::MvnxGz | Self::Csv | Self::Npz | Self::Parquet => (Axes::ZUp, Unit::Metre),
+            Self::C3d => (Axes::ZUp, Unit::Millimetre),
+            Self::Bvh => (Axes::YUp, Unit::Centimetre),
+            Self::Trc => (Axes::YUp, Unit::Millimetre),
+            Self::Mot | Self::Sto | Self::Gltf | Self::Glb => (Axes::YUp, Unit::Metre),
+        }
+    }
+
+    const fn allowed_axes(self) -> &'static [Axes] {
+        match self {
+            Self::Mvnx | Self::MvnxGz => &[Axes::ZUp],
+            Self::Csv | Self::Npz | Self::Parquet | Self::C3d => &[Axes::ZUp, Axes::YUp, Axes::Unity, Axes::Unreal],
+            Self::Bvh | Self::Trc => &[Axes::YUp, Axes::ZUp],
+            Self::Mot | Self::Sto | Self::Gltf | Self::Glb => &[Axes::YUp],
+        }
+    }
+
+    const fn has_fixed_unit(self) -> bool {
+        matches!(
+            self,
+            Self::Mvnx | Self::MvnxGz | Self::Mot | Self::Sto | Self::Gltf | Self::Glb
+        )
+    }
+
+    fn fixed(self, what: &'static str, expected: String, found: &str) -> Error {
+        Error::Fixed {
+            format: self.name(),
+            what,
+            expected,
+            found: found.to_owned(),
+        }
+    }
+
+    const fn holds(self) -> Holds {
+        let poses = Holds {
+            sections: &[Section::Position, Section::Orientation],
+            contacts: false,
+            markers: false,
+            events: false,
+            timecodes: false,
+        };
+        let all = Holds {
+            sections: Section::ALL,
+            contacts: true,
+            markers: false,
+            events: true,
+            timecodes: true,
+        };
+        match self {
+            Self::Mvnx | Self::MvnxGz | Self::Csv | Self::Npz | Self::Parquet => all,
+            Self::C3d => Holds {
+                sections: &[Section::Position, Section::Orientation, Section::JointAngles],
+                events: true,
+                ..poses
+            },
+            Self::Mot => Holds {
+                sections: &[Section::JointAngles],
+                ..poses
+            },
+            Self::Sto => Holds {
+                sections: &[Section::Orientation],
+                ..poses
+            },
+            Self::Bvh | Self::Trc | Self::Gltf | Self::Glb => poses,
+        }
+    }
+}
+
+const fn symbol(unit: Unit) -> &'static str {
+    match unit {
+        Unit::Metre => "m",
+        Unit::Centimetre => "cm",
+        Unit::Millimetre => "mm",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use posewire_motion::{DQuat, Frame, Skeleton, Subject, Timecode};
+    use std::sync::Arc;
+
+    #[test]
+    fn the_usual_axes_and_unit_are_those_of_the_tools() {
+        let space = |format: FileFormat| format.space(None, None).unwrap();
+        assert_eq!(space(FileFormat::Bvh), Space::MOTION_BUILDER);
+        assert_eq!(space(FileFormat::Csv), Space::CANONICAL);
+        assert_eq!(space(FileFormat::C3d), Axes::ZUp.space(Unit::Millimetre));
+        assert_eq!(space(FileFormat::Trc), Axes::YUp.space(Unit::Millimetre));
+        assert_eq!(space(FileFormat::Glb), Axes::YUp.space(Unit::Metre));
+    }
+
+    #[test]
+    fn an_engine_brings_its_unit_along() {
+        let csv = |axes, unit| FileFormat::Csv.space(Some(axes), unit).unwrap();
+        assert_eq!(csv(Axes::Unreal, None), Space::UNREAL);
+        assert_eq!(csv(Axes::Unity, None), Space::UNITY);
+        assert_eq!(csv(Axes::Unreal, Some(Unit::Metre)).unit, Unit::Metre);
+    }
+
+    #[test]
+    fn what_a_format_fixes_cannot_be_asked_otherwise() {
+        let error = FileFormat::Gltf.space(None, Some(Unit::Centimetre)).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "glTF: expected m as the unit, which the format fixes, found cm"
+        );
+        let error = FileFormat::Trc.space(Some(Axes::Unity), None).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "TRC: expected y-up or z-up as the axes, which the format fixes, found unity"
+        );
+        assert!(FileFormat::Glb.space(Some(Axes::YUp), Some(Unit::Metre)).is_ok());
+    }
+
+    #[test]
+    fn what_is_left_out_is_said_unless_it_was_not_asked_for() {
+        let subject = Arc::new(Subject::new("Ada", Skeleton::standard(0, false)));
+        let mut take = Take::new(Arc::clone(&subject), 60.0);
+        let mut frame = Frame::new(subject);
+        frame.orientation = vec![Some(DQuat::IDENTITY); 23];
+        frame.angular_velocity = vec![None; 23];
+        frame.contacts = vec![true; 4];
+        frame.timecode = Some(Timecode::from_milliseconds(1));
+        take.push(&frame).unwrap();
+        let left_out = FileFormat::Bvh.leaves_out(&take, None);
+        assert_eq!(left_out.to_string(), "angular velocity, foot contacts, the time of day");
+        let asked = FileFormat::Bvh.leaves_out(&take, Some(&[Section::Orientation]));
+        assert!(asked.is_empty());
+        assert!(FileFormat::Npz.leaves_out(&take, None).is_empty());
+    }
+}

@@ -1,0 +1,164 @@
+//! Takes on the disk: read whole, and written in the formats of other tools.
+//!
+//! ```no_run
+//! use posewire::endpoint::FileFormat;
+//! use posewire::file::{Progress, Recording, WriteOptions, write};
+//! use posewire_motion::{DQuat, DVec3, Frame, Skeleton, Subject, Take};
+//! use std::io::Cursor;
+//! use std::sync::Arc;
+//!
+//! let subject = Arc::new(Subject::new("Ada", Skeleton::standard(0, false)));
+//! let mut take = Take::new(subject.clone(), 240.0);
+//! let mut frame = Frame::new(subject);
+//! frame.position = vec![Some(DVec3::new(0.1, 0.2, 0.95)); 23];
+//! frame.orientation = vec![Some(DQuat::IDENTITY); 23];
+//! take.push(&frame)?;
+//!
+//! let mut file = Cursor::new(Vec::new());
+//! let recording = Recording::from(take);
+//! write(FileFormat::Bvh, &recording, &WriteOptions::default(), &Progress::default(), &mut file)?;
+//! assert!(file.get_ref().starts_with(b"HIERARCHY"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod format;
+mod left_out;
+mod options;
+mod output;
+mod problem;
+mod progress;
+mod read;
+mod save;
+
+pub use left_out::LeftOut;
+pub use options::{Axes, BvhOptions, CsvOptions, MvnxOptions, ParquetOptions, WriteOptions};
+pub use output::WriteSeek;
+pub use progress::Progress;
+pub use read::{ReadOptions, read};
+pub use save::{Saved, Target, save};
+
+use crate::endpoint::FileFormat;
+use crate::{Error, Result};
+use output::Output;
+use posewire_motion::{Column, Section, Space, Take};
+use posewire_mvnx::Document;
+use problem::Problem;
+
+/// A take and, where it came from an MVNX file, what stands around its frames there.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Recording {
+    /// What was recorded.
+    pub take: Take,
+    /// What stands around it in its MVNX file.
+    pub document: Option<Document>,
+    /// What ended the file before its end, if something did and the frames before it were to be used.
+    pub damage: Option<String>,
+}
+
+impl From<Take> for Recording {
+    /// A take that comes from nowhere in particular.
+    fn from(take: Take) -> Self {
+        Self {
+            take,
+            document: None,
+            damage: None,
+        }
+    }
+}
+
+/// Writes a take to `out` in a format, and says what the format could not hold.
+///
+/// The numbers are in the [`axes`](WriteOptions::axes) and the [`unit`](WriteOptions::unit) asked for, else in those that
+/// the format's tools expect. Where `out` ends with an error, what was written is no whole file.
+///
+/// # Errors
+/// [`Error::Fixed`](crate::Error::Fixed) when the format cannot have the axes or the unit,
+/// [`Error::Lacks`](crate::Error::Lacks) when the take has nothing that it holds,
+/// [`Error::Write`](crate::Error::Write) when `out` fails, [`Error::Stopped`](crate::Error::Stopped) when `progress` says so.
+pub fn write(
+    format: FileFormat,
+    recording: &Recording,
+    options: &WriteOptions,
+    progress: &Progress,
+    out: &mut dyn WriteSeek,
+) -> Result<LeftOut> {
+    let place = format!("the {format} file");
+    write_to(format, recording, options, progress, out).map_err(|problem| match problem {
+        Problem::Output(_) if progress.is_stopped() => Error::Stopped {
+            what: format!("writing {place}"),
+        },
+        problem => problem.at(&place),
+    })
+}
+
+fn write_to(
+    format: FileFormat,
+    recording: &Recording,
+    options: &WriteOptions,
+    progress: &Progress,
+    out: &mut dyn WriteSeek,
+) -> Result<LeftOut, Problem> {
+    let job = Job {
+        take: &recording.take,
+        space: format.space(options.axes, options.unit)?,
+        options,
+        progress,
+    };
+    progress.begin(recording.take.len() as u64);
+    let mut out = Output::new(out);
+    let left_out = job.write(format, recording.document.as_ref(), &mut out)?;
+    out.finish()?;
+    Ok(format
+        .leaves_out(&recording.take, options.sections.as_deref())
+        .and(left_out))
+}
+
+/// One take on its way into one file.
+#[derive(Clone, Copy)]
+struct Job<'a> {
+    take: &'a Take,
+    /// The axes and the unit that the file is to have.
+    space: Space,
+    options: &'a WriteOptions,
+    /// Every writer counts the frames it has written here.
+    progress: &'a Progress,
+}
+
+impl Job<'_> {
+    /// Writes the take. Each format has a file of its own here, with `fn write(job: &Job<'_>, out: &mut Output<'_>)`.
+    fn write(
+        &self,
+        format: FileFormat,
+        _document: Option<&Document>,
+        _out: &mut Output<'_>,
+    ) -> Result<LeftOut, Problem> {
+        match format {
+            FileFormat::C3d => Err(Problem::not_written(format)),
+            FileFormat::Gltf | FileFormat::Glb => Err(Problem::not_written(format)),
+            FileFormat::Npz => Err(Problem::not_written(format)),
+            FileFormat::Parquet => Err(Problem::not_written(format)),
+            FileFormat::Csv => Err(Problem::not_written(format)),
+            FileFormat::Bvh => Err(Problem::not_written(format)),
+            FileFormat::Trc => Err(Problem::not_written(format)),
+            FileFormat::Mot => Err(Problem::not_written(format)),
+            FileFormat::Sto => Err(Problem::not_written(format)),
+            FileFormat::Mvnx | FileFormat::MvnxGz => Err(Problem::not_written(format)),
+        }
+    }
+
+    /// The numbers of a frame in the file's axes and unit, angles still in radians.
+    fn read_row(&self, column: &Column, frame: usize, to: &mut Vec<f64>) {
+        to.clear();
+        to.extend_from_slice(column.row(frame));
+        self.space.section_from_canonical(column.section(), to);
+    }
+
+    /// The sections to write: those asked for that the take has, in the order of [`Section::ALL`].
+    fn sections(&self) -> impl Iterator<Item = Section> {
+        let asked = self.options.sections.as_deref();
+        self.take
+            .sections()
+            .filter(move |section| asked.is_none_or(|asked| asked.contains(section)))
+    }
+}
