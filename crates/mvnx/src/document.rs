@@ -1,10 +1,10 @@
 //! All that stands around the frames of a file.
 
-use crate::Calibration;
 use crate::header::Header;
 use crate::input::MAX_PIECE;
 use crate::markup::{Kind, Markup, Piece};
 use crate::xml::Xml;
+use crate::{Calibration, Version};
 use posewire_motion::Subject;
 use std::io::BufRead;
 use std::sync::Arc;
@@ -26,6 +26,15 @@ impl Document {
     /// What the file says, unconverted.
     pub fn header(&self) -> &Header {
         &self.header
+    }
+
+    /// The version of the format that the file is, or was described for.
+    pub fn version(&self) -> Version {
+        if self.header.version == 3 {
+            Version::V3
+        } else {
+            Version::V4
+        }
     }
 
     /// Whose motion it is, in the canonical convention.

@@ -26,6 +26,8 @@
 //! ```
 
 mod calibration;
+mod convert;
+mod describe;
 mod document;
 mod error;
 mod frame;
@@ -40,9 +42,11 @@ mod remainder;
 mod section;
 mod sections;
 mod skeleton;
+mod writer;
 mod xml;
 
 pub use calibration::{Calibration, CalibrationKind};
+pub use convert::{rewrite, write_take};
 pub use document::Document;
 pub use error::{Error, Place};
 pub use header::{
@@ -52,3 +56,4 @@ pub use header::{
 pub use reader::{FrameCounts, Reader, read_take};
 pub use remainder::Remainder;
 pub use sections::SectionInfo;
+pub use writer::{LeftOut, Reason, Version, Writer};

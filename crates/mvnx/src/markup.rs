@@ -1,6 +1,8 @@
 //! Markup as it stands in a file, kept so that it can be written again.
 
-use quick_xml::events::Event;
+use quick_xml::escape::resolve_predefined_entity;
+use quick_xml::events::{BytesRef, Event};
+use std::ops::Range;
 
 /// A stretch of a file in the order of its markup: tags, texts, comments. It need not be balanced.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -165,6 +167,24 @@ impl<'a> Pieces<'a> {
         self.clone().next()
     }
 
+    /// What the rest of the element means whose start tag came last; `None` when it holds other elements.
+    pub(crate) fn text_content(&self) -> Option<String> {
+        let mut text = String::new();
+        for piece in self.clone() {
+            match piece.kind {
+                Kind::Text | Kind::CData => text.push_str(piece.text),
+                Kind::Reference => match BytesRef::new(piece.text).resolve_char_ref() {
+                    Ok(Some(character)) => text.push(character),
+                    _ => text.push_str(resolve_predefined_entity(piece.text)?),
+                },
+                Kind::Start => return None,
+                Kind::End | Kind::EndOfEmpty => break,
+                Kind::Comment | Kind::Instruction | Kind::Doctype => {}
+            }
+        }
+        Some(text)
+    }
+
     /// Passes over the rest of the element whose start tag came last, its end tag included.
     pub(crate) fn skip_element(&mut self) {
         let mut depth = 1_usize;
@@ -217,34 +237,26 @@ impl<'a> Piece<'a> {
 
     /// Of a start tag: the value of an attribute as it is written, references and all.
     pub(crate) fn attribute(&self, name: &str) -> Option<&'a str> {
-        let mut attributes = Attributes {
-            rest: &self.text[self.tag_name().len()..],
-        };
-        let found = attributes.find(|(attribute, _)| *attribute == name);
-        found.map(|(_, value)| value)
+        self.attribute_place(name).map(|place| &self.text[place])
+    }
+
+    /// Of a start tag: where in it the value of an attribute stands.
+    pub(crate) fn attribute_place(&self, name: &str) -> Option<Range<usize>> {
+        let mut begin = self.tag_name().len();
+        loop {
+            let equals = begin + self.text[begin..].find('=')?;
+            let quote = equals + self.text[equals..].find(['"', '\''])?;
+            let length = self.text[quote + 1..].find(&self.text[quote..=quote])?;
+            if self.text[begin..equals].trim_ascii() == name {
+                return Some(quote + 1..quote + 1 + length);
+            }
+            begin = quote + length + 2;
+        }
     }
 
     /// Whether it is text that only separates other pieces.
     pub(crate) fn is_blank(&self) -> bool {
         self.kind == Kind::Text && self.text.trim_ascii().is_empty()
-    }
-}
-
-/// Names and raw values in the attributes of a start tag.
-struct Attributes<'a> {
-    rest: &'a str,
-}
-
-impl<'a> Iterator for Attributes<'a> {
-    type Item = (&'a str, &'a str);
-
-    fn next(&mut self) -> Option<Self::Item> {
-        let (name, rest) = self.rest.split_once('=')?;
-        let rest = rest.trim_ascii_start();
-        let quote = rest.chars().next().filter(|quote| matches!(quote, '"' | '\''))?;
-        let (value, rest) = rest[1..].split_once(quote)?;
-        self.rest = rest;
-        Some((name.trim_ascii(), value))
     }
 }
 

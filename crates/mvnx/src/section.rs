@@ -56,6 +56,11 @@ impl Section {
         row.map(|row| row.0)
     }
 
+    /// All sections in the order in which MVN writes them.
+    pub(crate) fn all() -> impl Iterator<Item = Self> {
+        TABLE.iter().map(|row| row.0)
+    }
+
     /// Its element name.
     pub(crate) fn name(self) -> &'static str {
         self.row().1
@@ -107,6 +112,16 @@ impl Layout {
             right_finger_joints: header.finger_joints.right.len(),
             ergonomic_angles: header.ergonomic_angles.len(),
             contacts: header.contacts.len(),
+        }
+    }
+
+    /// Of a file that defines segments only: of body and props, of the left and of the right hand.
+    pub(crate) fn of_segments([segments, left_fingers, right_fingers]: [usize; 3]) -> Self {
+        Self {
+            segments,
+            left_fingers,
+            right_fingers,
+            ..Self::default()
         }
     }
 

@@ -6,7 +6,7 @@ use crate::error::clip;
 use crate::header::{ConnectorDefinition, Header, JointDefinition, PointDefinition, SegmentDefinition};
 use crate::null_pose;
 use posewire_motion::{
-    Connector, DQuat, DVec3, ErgonomicAngle, Joint, Point, Segment, SegmentKind, Skeleton, Subject, standard,
+    Connector, DQuat, DVec3, ErgonomicAngle, Joint, Point, Segment, SegmentKind, Skeleton, Subject, rotation, standard,
 };
 use std::collections::HashMap;
 
@@ -159,7 +159,8 @@ fn apply_calibration(segments: &mut [Segment], version: u32, calibration: &[Cali
         },
     };
     for (segment, axes) in segments.iter_mut().zip(axes.into_iter().flatten()) {
-        segment.isb = axes.and_then(unit).unwrap_or(segment.isb);
+        let axes = axes.and_then(unit).unwrap_or(segment.isb);
+        segment.isb = exact(axes, segment.isb);
     }
 }
 
@@ -181,6 +182,15 @@ fn unit(q: DQuat) -> Option<DQuat> {
     }
     let turns = DVec3::new(q.x, q.y, q.z) != DVec3::ZERO;
     Some(if turns { q / length } else { DQuat::IDENTITY })
+}
+
+/// The nominal axes with the sign of those found, when six decimals cannot tell the two apart.
+///
+/// Without it each conversion between the versions would add its own rounding.
+fn exact(found: DQuat, nominal: DQuat) -> DQuat {
+    let nominal = rotation::continuous(nominal, found);
+    let same = (found - nominal).length() < 5e-6;
+    if same && found != DQuat::IDENTITY { nominal } else { found }
 }
 
 fn joints(header: &Header, places: &Places<'_>) -> Result<Vec<Joint>, Error> {

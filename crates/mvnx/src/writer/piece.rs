@@ -1,0 +1,146 @@
+//! Markup of a document, written again in this version or the other.
+
+use super::left_out::Reason;
+use super::{HeldPose, Printer, Style, Version, Writer, write_poses};
+use crate::calibration::CalibrationKind;
+use crate::markup::{Kind, Markup, Piece, Pieces};
+use crate::section::Section;
+use crate::{Calibration, Document, Error};
+use posewire_motion::Skeleton;
+use std::borrow::Cow;
+use std::io::Write;
+
+impl<W: Write> Writer<W> {
+    /// Writes all of a stretch of markup.
+    pub(super) fn write_markup(&mut self, markup: &Markup) -> Result<(), Error> {
+        self.left_out.too_large(markup);
+        let mut pieces = markup.pieces();
+        while let Some(piece) = pieces.next() {
+            self.write_piece(piece, &mut pieces)?;
+        }
+        Ok(())
+    }
+
+    /// Writes a piece; of an element that stands on one line, all of it.
+    pub(super) fn write_piece(&mut self, piece: Piece<'_>, pieces: &mut Pieces<'_>) -> Result<(), Error> {
+        match piece.kind {
+            Kind::Start if self.is_replaced(piece) => {
+                pieces.skip_element();
+                Ok(())
+            }
+            Kind::Start => self.write_start(piece, pieces),
+            Kind::End | Kind::EndOfEmpty => self.printer.end(),
+            _ => self.printer.content(piece),
+        }
+    }
+
+    fn write_start(&mut self, tag: Piece<'_>, pieces: &mut Pieces<'_>) -> Result<(), Error> {
+        let text = self.converted(tag);
+        if pieces.peek().is_some_and(|piece| piece.kind == Kind::EndOfEmpty) {
+            pieces.next();
+            return self.printer.empty(&text);
+        }
+        if is_numbers(&self.printer, tag)
+            && let Some(numbers) = pieces.text_content()
+        {
+            pieces.skip_element();
+            return self.printer.leaf(&text, |to| {
+                for number in numbers.split_ascii_whitespace() {
+                    to.extend_from_slice(number.as_bytes());
+                    to.push(b' ');
+                }
+            });
+        }
+        let style = if self.printer.in_lines() {
+            Style::of(tag, pieces)
+        } else {
+            Style::Inline
+        };
+        self.printer.start(&text, style);
+        Ok(())
+    }
+
+    /// Whether an element has no place in the other version, or is written anew in its convention.
+    fn is_replaced(&mut self, tag: Piece<'_>) -> bool {
+        if !self.converts {
+            return false;
+        }
+        let (name, kind) = (tag.name(), tag.attribute("type").unwrap_or("normal"));
+        match (self.printer.parent(), name) {
+            ("subject", "footContactDefinition") if self.version == Version::V3 => {
+                self.left_out.add(name, Reason::Version(self.version));
+            }
+            ("mvnx", "securityCode") => self.left_out.add(name, Reason::Converted),
+            ("frames", "frame") if self.frames == 0 && CalibrationKind::of(kind).is_some() => {}
+            ("frames", "frame") => self.left_out.add(&format!("frame of type {kind}"), Reason::Converted),
+            _ => return false,
+        }
+        true
+    }
+
+    /// A start tag in the version that is written.
+    fn converted<'a>(&self, tag: Piece<'a>) -> Cow<'a, str> {
+        if !self.converts {
+            return Cow::Borrowed(tag.text);
+        }
+        match (self.printer.parent(), tag.name()) {
+            ("point", "pos_b" | "pos_s") => Cow::Borrowed(self.version.offset()),
+            ("", "mvnx") => Cow::Owned(with_version(tag, self.version)),
+            _ => Cow::Borrowed(tag.text),
+        }
+    }
+
+    /// Writes the poses of calibration that files of the other version have.
+    pub(super) fn write_converted_poses(&mut self, document: &Document) -> Result<(), Error> {
+        let skeleton = &document.subject.skeleton;
+        let held = held_pose(skeleton, document.version(), &document.calibration);
+        let rate = document.header.frame_rate();
+        write_poses(
+            &mut self.printer,
+            self.numbers.layout,
+            self.version,
+            skeleton,
+            held,
+            rate,
+        )
+    }
+}
+
+/// The T-pose as the body holds it, in ISB axes, from the poses of a file of this version.
+fn held_pose(skeleton: &Skeleton, version: Version, calibration: &[Calibration]) -> Option<HeldPose> {
+    let pose = |kind| calibration.iter().find(|pose| pose.kind == kind);
+    let (in_isb_axes, in_own_axes) = match version {
+        Version::V3 => (pose(CalibrationKind::TPose), None),
+        Version::V4 => (pose(CalibrationKind::TPoseIsb), pose(CalibrationKind::TPose)),
+    };
+    let turned = |pose: &Calibration| {
+        let entries = pose.orientation.iter().zip(&skeleton.segments);
+        entries.map(|(q, segment)| q.map(|q| q * segment.isb)).collect()
+    };
+    let (orientation, pose) = match (in_isb_axes, in_own_axes) {
+        (Some(pose), _) => (pose.orientation.clone(), pose),
+        (None, Some(pose)) => (turned(pose), pose),
+        (None, None) => return None,
+    };
+    Some(HeldPose {
+        orientation,
+        position: pose.position.clone(),
+    })
+}
+
+/// Whether an element holds nothing but numbers.
+fn is_numbers<W: Write>(printer: &Printer<W>, tag: Piece<'_>) -> bool {
+    match printer.parent() {
+        "point" => matches!(tag.name(), "pos_b" | "pos_s"),
+        "frame" => Section::of(tag.name()).is_some(),
+        _ => false,
+    }
+}
+
+/// The root's start tag with this version.
+fn with_version(tag: Piece<'_>, version: Version) -> String {
+    let Some(value) = tag.attribute_place("version") else {
+        return tag.text.to_owned();
+    };
+    format!("{}{version}{}", &tag.text[..value.start], &tag.text[value.end..])
+}
