@@ -152,16 +152,34 @@ pub(crate) struct Monitor {
     pub(crate) count: Option<u64>,
 }
 
-/// Say what a take holds.
+/// Say what a take holds, and with --verify whether it agrees with itself.
 #[derive(Debug, Args)]
 #[command(after_help = "\
+What --verify checks, and beyond what it says \"look at this\":
+  angles        joint and ergonomic angles, recomputed from the orientations   0.003 degrees
+  quaternions   how far their length is from 1; six decimals explain 0.000001  0.00001
+  gaps          how far the two ends of a joint come apart                     50 mm
+  dropouts      samples missing or out of order, segments not tracked          any
+  clock         the time of day (ms) against sample number and rate:
+                jitter, off the straight line in 99 of 100 samples             half a sample, 2 ms
+                drift, faster or slower than the rate says                     200 ppm + 3 errors
+  velocities    against the differences of positions and orientations          half their size,
+                                                                               0.1 m/s, 0.3 rad/s
+Of several limits the largest counts; + 3 errors: and three times the drift's own standard error.
+Close to a quarter turn of the middle angle (gimbal lock) angles are not compared but counted.
+
 Examples:
   posewire inspect take.mvnx
+  posewire inspect take.mvnx --verify
   posewire inspect cut-off.mvnx --salvage
   posewire inspect take.mvnx.gz --json")]
 pub(crate) struct Inspect {
     /// An .mvnx or .mvnx.gz file.
     pub(crate) file: PathBuf,
+
+    /// Check also whether the take agrees with itself: angles, quaternions, gaps, dropouts, the clock, velocities.
+    #[arg(long)]
+    pub(crate) verify: bool,
 
     /// Print one JSON object.
     #[arg(long)]
