@@ -53,6 +53,11 @@ impl FrameTag {
         Ok(tag)
     }
 
+    /// Whether the frame says which sample it is.
+    pub(crate) fn is_numbered(&self) -> bool {
+        self.index.is_some()
+    }
+
     /// Gives `frame` the sample number and times; `number` counts the frames read before.
     fn stamp(&self, frame: &mut Frame, number: u64) {
         frame.sample = self.index.unwrap_or(u32::try_from(number).unwrap_or(u32::MAX));
@@ -82,6 +87,11 @@ impl FrameReader {
             numbers: Vec::new(),
             summary: SectionSummary::default(),
         }
+    }
+
+    /// Another reader of the same file, which has seen no frame yet.
+    pub(crate) fn another(&self) -> Self {
+        Self::new(self.layout, self.corrections.clone())
     }
 
     /// Reads the frame on whose start tag the reader stands into an empty one; goes to its end tag.

@@ -1,6 +1,7 @@
 //! The bytes of a file: decompressed, checked for being text, counted and bounded.
 
 use crate::error::clip;
+use crate::rewind::Rewind;
 use crate::{Error, Place};
 use flate2::bufread::MultiGzDecoder;
 use std::io::{self, BufRead, BufReader, Chain, Cursor, Read};
@@ -10,7 +11,7 @@ type Ahead<R> = Chain<Cursor<Vec<u8>>, R>;
 
 /// A file's text, with the place that it was read to and a bound on what one piece of markup may take.
 pub(crate) struct Input<R> {
-    text: Ahead<Source<R>>,
+    text: Rewind<Ahead<Source<R>>>,
     place: Place,
     /// Bytes that may still be read before [`begin`](Self::begin) is called again.
     left: usize,
@@ -31,12 +32,22 @@ impl<R: BufRead> Input<R> {
         };
         let (beginning, text) = look_ahead(source, 512)?;
         check_text(&beginning)?;
-        Ok(Self {
-            text,
+        Ok(Self::of(text))
+    }
+
+    /// Text that is known to be in the middle of a file, and what is to stand before it.
+    pub(crate) fn within(before: &str, bytes: R) -> Self {
+        let bytes = Cursor::new(before.into()).chain(bytes);
+        Self::of(Cursor::new(Vec::new()).chain(Source::Plain(bytes)))
+    }
+
+    fn of(text: Ahead<Source<R>>) -> Self {
+        Self {
+            text: Rewind::new(text),
             place: START,
             left: MAX_PIECE,
             ended: false,
-        })
+        }
     }
 
     /// How far the file was read.
@@ -57,6 +68,16 @@ impl<R: BufRead> Input<R> {
     /// Whether reading stopped because the piece is too long.
     pub(crate) fn exhausted(&self) -> bool {
         self.left == 0
+    }
+
+    /// Counts on from this place.
+    pub(crate) fn set_place(&mut self, place: Place) {
+        self.place = place;
+    }
+
+    /// The bytes that were not read yet, to be taken out and put back without being counted.
+    pub(crate) fn rest(&mut self) -> &mut Rewind<impl BufRead + use<R>> {
+        &mut self.text
     }
 }
 

@@ -39,6 +39,7 @@ mod null_pose;
 mod number;
 mod reader;
 mod remainder;
+mod rewind;
 mod section;
 mod sections;
 mod skeleton;

@@ -1,5 +1,8 @@
 //! The streaming reader.
 
+mod blocks;
+mod parallel;
+mod take;
 mod whole;
 
 use crate::calibration::{Calibration, CalibrationKind, read_calibration};
@@ -14,10 +17,11 @@ use crate::sections::SectionInfo;
 use crate::skeleton::build_subject;
 use crate::xml::Xml;
 use crate::{Error, Place};
-use posewire_motion::{DQuat, Frame, Subject, Take};
+use posewire_motion::{DQuat, Frame, Subject};
 use std::fmt;
 use std::io::BufRead;
 use std::sync::Arc;
+pub use take::read_take;
 
 /// Reads an MVNX file of version 3 or 4, plain or gzip-compressed, frame by frame.
 ///
@@ -40,6 +44,8 @@ pub struct Reader<R> {
     frames: FrameReader,
     counts: FrameCounts,
     salvage: bool,
+    /// How many threads [`read_take`] uses; as many as there are cores when it is 0.
+    threads: usize,
     damage: Option<Error>,
     state: State,
     /// What stands around the frames, to be written again.
@@ -92,6 +98,7 @@ impl<R: BufRead> Reader<R> {
             frames,
             counts,
             salvage: false,
+            threads: 0,
             damage: None,
             state,
             around,
@@ -108,6 +115,14 @@ impl<R: BufRead> Reader<R> {
     #[must_use]
     pub fn salvage(mut self, salvage: bool) -> Self {
         self.salvage = salvage;
+        self
+    }
+
+    /// How many threads [`read_take`] uses, 8 at most; with 0, which is the usual, one for each core. The result is the
+    /// same with any number.
+    #[must_use]
+    pub fn threads(mut self, threads: usize) -> Self {
+        self.threads = threads;
         self
     }
 
@@ -217,24 +232,6 @@ impl<R> fmt::Debug for Reader<R> {
             .field("damage", &self.damage)
             .finish_non_exhaustive()
     }
-}
-
-/// Reads the rest of a file into memory.
-///
-/// # Errors
-/// What ends the reader's iteration, unless it salvages; [`Error::MissingAttribute`] when the subject has no `frameRate`.
-pub fn read_take<R: BufRead>(reader: &mut Reader<R>) -> Result<Take, Error> {
-    let rate = reader.subject.rate.ok_or(Error::MissingAttribute {
-        at: reader.place(),
-        element: "subject",
-        attribute: "frameRate",
-    })?;
-    let mut take = Take::new(Arc::clone(&reader.subject), rate);
-    for frame in reader {
-        // Every section was checked against the same definitions that the skeleton is made of.
-        let _ = take.push(&frame?);
-    }
-    Ok(take)
 }
 
 impl FrameTag {

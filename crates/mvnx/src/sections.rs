@@ -72,6 +72,23 @@ impl SectionSummary {
         Ok(())
     }
 
+    /// Adds the sections of frames that follow those seen so far. `false` when there are too many to say what reading the
+    /// frames one after the other would have kept; nothing is added then.
+    pub(crate) fn append(&mut self, mut following: Self) -> bool {
+        let is_new = |info: &SectionInfo| self.list.iter().all(|known| known.name != info.name);
+        let new = following.list.iter().filter(|info| is_new(info)).count();
+        if self.list.len() + new >= MAX_SECTIONS {
+            return false;
+        }
+        for info in following.list.drain(..) {
+            match self.list.iter_mut().find(|known| known.name == info.name) {
+                Some(known) => known.frames += info.frames,
+                None => self.list.push(info),
+            }
+        }
+        true
+    }
+
     /// The section of this name. Frames hold the same sections in the same order, so that the first look finds it.
     fn find(&mut self, name: &str) -> Option<&mut SectionInfo> {
         let likely = self.list.get(self.next).is_some_and(|info| info.name == name);

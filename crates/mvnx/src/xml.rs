@@ -90,6 +90,11 @@ impl<R: BufRead> Xml<R> {
         &self.tag
     }
 
+    /// The file from which it reads.
+    pub(crate) fn input(&mut self) -> &mut Input<R> {
+        self.events.get_mut()
+    }
+
     /// Where the step begins on which the reader stands.
     pub(crate) fn place(&self) -> Place {
         self.place
@@ -285,6 +290,18 @@ impl<R: BufRead> Xml<R> {
                 message: error.to_string(),
             },
         }
+    }
+}
+
+impl<'a> Xml<&'a [u8]> {
+    /// A reader of a part of a file, the first byte of which stands at `place` and within elements with these start tags.
+    pub(crate) fn within(tags: &str, part: &'a [u8], place: Place) -> Result<Self, Error> {
+        let mut xml = Self::new(Input::within(tags, part));
+        for _ in tags.matches('<') {
+            xml.child()?;
+        }
+        xml.input().set_place(place);
+        Ok(xml)
     }
 }
 
