@@ -12,6 +12,8 @@ struct Holds {
     markers: bool,
     events: bool,
     timecodes: bool,
+    /// Whether frames have times, and do not just follow each other at the rate.
+    times: bool,
 }
 
 impl FileFormat {
@@ -47,6 +49,10 @@ impl FileFormat {
             wanted && !holds.sections.contains(section)
         });
         missed.for_each(|section| left_out.push(section.name().replace('_', " ")));
+        let missing = missing_samples(take);
+        if missing > 0 && !holds.times {
+            left_out.push(format!("{missing} missing samples, over which the frames close up"));
+        }
         if asked.is_some() {
             return left_out;
         }
@@ -116,6 +122,7 @@ impl FileFormat {
             markers: false,
             events: false,
             timecodes: false,
+            times: true,
         };
         let all = Holds {
             sections: Section::ALL,
@@ -123,12 +130,14 @@ impl FileFormat {
             markers: false,
             events: true,
             timecodes: true,
+            times: true,
         };
         match self {
             Self::Mvnx | Self::MvnxGz | Self::Csv | Self::Npz | Self::Parquet => all,
             Self::C3d => Holds {
                 sections: &[Section::Position, Section::Orientation, Section::JointAngles],
                 events: true,
+                times: false,
                 ..poses
             },
             Self::Mot => Holds {
@@ -139,9 +148,16 @@ impl FileFormat {
                 sections: &[Section::Orientation],
                 ..poses
             },
-            Self::Bvh | Self::Trc | Self::Gltf | Self::Glb => poses,
+            Self::Bvh => Holds { times: false, ..poses },
+            Self::Trc | Self::Gltf | Self::Glb => poses,
         }
     }
+}
+
+/// Sample numbers between the first and the last that have no frame.
+fn missing_samples(take: &Take) -> u64 {
+    let steps = take.samples().windows(2).map(|pair| pair[1].saturating_sub(pair[0]));
+    steps.map(|step| u64::from(step.saturating_sub(1))).sum()
 }
 
 const fn symbol(unit: Unit) -> &'static str {
@@ -201,10 +217,15 @@ mod tests {
         frame.contacts = vec![true; 4];
         frame.timecode = Some(Timecode::from_milliseconds(1));
         take.push(&frame).unwrap();
+        frame.sample = 4;
+        take.push(&frame).unwrap();
         let left_out = FileFormat::Bvh.leaves_out(&take, None);
-        assert_eq!(left_out.to_string(), "angular velocity, foot contacts, the time of day");
+        assert_eq!(
+            left_out.to_string(),
+            "angular velocity, 3 missing samples, over which the frames close up, foot contacts, the time of day"
+        );
         let asked = FileFormat::Bvh.leaves_out(&take, Some(&[Section::Orientation]));
-        assert!(asked.is_empty());
+        assert_eq!(asked.iter().count(), 1);
         assert!(FileFormat::Npz.leaves_out(&take, None).is_empty());
     }
 }

@@ -1,6 +1,6 @@
 //! Takes on the disk: read whole, and written in the formats of other tools.
 //!
-//! ```no_run
+//! ```
 //! use posewire::endpoint::FileFormat;
 //! use posewire::file::{Progress, Recording, WriteOptions, write};
 //! use posewire_motion::{DQuat, DVec3, Frame, Skeleton, Subject, Take};
@@ -21,6 +21,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod bvh;
+mod csv;
 mod format;
 mod left_out;
 mod options;
@@ -29,6 +31,7 @@ mod problem;
 mod progress;
 mod read;
 mod save;
+mod text;
 
 pub use left_out::LeftOut;
 pub use options::{Axes, BvhOptions, CsvOptions, MvnxOptions, ParquetOptions, WriteOptions};
@@ -131,15 +134,15 @@ impl Job<'_> {
         &self,
         format: FileFormat,
         _document: Option<&Document>,
-        _out: &mut Output<'_>,
+        out: &mut Output<'_>,
     ) -> Result<LeftOut, Problem> {
         match format {
             FileFormat::C3d => Err(Problem::not_written(format)),
             FileFormat::Gltf | FileFormat::Glb => Err(Problem::not_written(format)),
             FileFormat::Npz => Err(Problem::not_written(format)),
             FileFormat::Parquet => Err(Problem::not_written(format)),
-            FileFormat::Csv => Err(Problem::not_written(format)),
-            FileFormat::Bvh => Err(Problem::not_written(format)),
+            FileFormat::Csv => csv::write(self, out),
+            FileFormat::Bvh => bvh::write(self, out),
             FileFormat::Trc => Err(Problem::not_written(format)),
             FileFormat::Mot => Err(Problem::not_written(format)),
             FileFormat::Sto => Err(Problem::not_written(format)),
@@ -160,5 +163,29 @@ impl Job<'_> {
         self.take
             .sections()
             .filter(move |section| asked.is_none_or(|asked| asked.contains(section)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::synthetic::{Walk, WalkOptions};
+    use std::io::Cursor;
+
+    /// So many frames of the walker.
+    pub(super) fn walk(frames: u32) -> Take {
+        let walk = Walk::new(&WalkOptions::default());
+        let mut take = Take::new(walk.subjects()[0].clone(), walk.rate());
+        for sample in 0..frames {
+            take.push(&walk.frame(0, sample)).unwrap();
+        }
+        take
+    }
+
+    /// The text of a take in a format.
+    pub(super) fn text_of(format: FileFormat, take: Take, options: &WriteOptions) -> String {
+        let mut file = Cursor::new(Vec::new());
+        write(format, &take.into(), options, &Progress::default(), &mut file).unwrap();
+        String::from_utf8(file.into_inner()).unwrap()
     }
 }

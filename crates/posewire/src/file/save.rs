@@ -1,5 +1,6 @@
 //! Files that appear whole or not at all.
 
+use super::problem::Problem;
 use super::{LeftOut, Progress, Recording, WriteOptions, WriteSeek, write_to};
 use crate::endpoint::FileFormat;
 use crate::{Error, Result};
@@ -8,8 +9,6 @@ use std::fs::{self, File, Metadata};
 use std::io;
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
-
-use super::problem::Problem;
 
 /// Where a take is saved, and as what.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -181,7 +180,6 @@ const ALL_BUT_MASKED: u32 = 0o666;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::io::Write;
     use tempfile::TempDir;
 
     fn names(folder: &TempDir) -> Vec<String> {
