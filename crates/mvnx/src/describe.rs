@@ -1,7 +1,7 @@
 //! Documents for subjects that come from no MVNX file.
 
 use crate::section::Layout;
-use crate::writer::{Printer, Style, attribute, text, write_poses};
+use crate::writer::{Poses, Printer, Style, attribute, text, write_poses};
 use crate::{Document, Error, Reader, Version};
 use posewire_motion::{Connector, Joint, Segment, SegmentKind, Skeleton, Subject};
 use std::collections::HashSet;
@@ -16,6 +16,7 @@ impl Document {
     /// the body. Names that MVNX has no room for are changed: a slash becomes an underscore, a second segment of one name
     /// gets its number.
     ///
+    /// A segment's parent is in the file where a joint connects the two.
     /// What the subject does not know is not in the document: a date of recording, for one. Colour and the rate are.
     ///
     /// # Errors
@@ -69,14 +70,8 @@ impl<'a> Description<'a> {
         to.leaf("comment", |_| {})?;
         self.write_definitions(&mut to, version)?;
         to.start(&self.frames_tag(), Style::Lines);
-        write_poses(
-            &mut to,
-            Layout::of_segments(self.segments),
-            version,
-            self.skeleton,
-            None,
-            Some(rate),
-        )?;
+        let (layout, poses) = (Layout::of_segments(self.segments), Poses::of_null(self.skeleton));
+        write_poses(&mut to, layout, version, self.skeleton, &poses, Some(rate))?;
         while to.depth() > 0 {
             to.end()?;
         }

@@ -12,7 +12,7 @@ mod version;
 
 pub(crate) use escape::{attribute, text};
 pub use left_out::{LeftOut, Reason};
-pub(crate) use poses::{HeldPose, write_poses};
+pub(crate) use poses::{Poses, write_poses};
 pub(crate) use printer::{Printer, Style};
 pub(crate) use tag::clock;
 pub use version::Version;
@@ -97,7 +97,7 @@ impl<W: Write> Writer<W> {
     /// [`Error::Misfit`] when a section has another number of entries than the document defines, before anything is
     /// written of the frame; [`Error::Write`] when the destination fails.
     pub fn write(&mut self, frame: &Frame) -> Result<(), Error> {
-        check(frame, &self.numbers.layout)?;
+        check(frame, &self.numbers.layout, self.version)?;
         let tag = self.tags.of(frame);
         if self.begin_frame(frame, &tag) {
             self.end_frame(frame, 0, 0)?;
@@ -113,7 +113,7 @@ impl<W: Write> Writer<W> {
     /// # Errors
     /// Those of [`write`](Self::write).
     pub fn write_whole(&mut self, frame: &Frame, remainder: &Remainder) -> Result<(), Error> {
-        check(frame, &self.numbers.layout)?;
+        check(frame, &self.numbers.layout, self.version)?;
         self.left_out.too_large(&remainder.markup);
         let mut pieces = remainder.markup.pieces();
         while pieces.place() < remainder.frame

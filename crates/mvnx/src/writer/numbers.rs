@@ -1,5 +1,6 @@
 //! The numbers of a frame as the sections of a file hold them.
 
+use super::Version;
 use crate::Error;
 use crate::section::{Layout, Per, Section};
 use posewire_motion::{CenterOfMass, DQuat, DVec3, Frame};
@@ -100,8 +101,8 @@ impl Numbers {
     }
 }
 
-/// Checks that every list of a frame has as many entries as the file defines.
-pub(crate) fn check(frame: &Frame, layout: &Layout) -> Result<(), Error> {
+/// Checks that every list of a frame has as many entries as the file defines, or that the version has no place for it.
+pub(crate) fn check(frame: &Frame, layout: &Layout, version: Version) -> Result<(), Error> {
     let (segments, joints) = (layout.all_segments(), layout.all_joints());
     let (sensors, angles) = (layout.sensors, layout.entries(Section::JointAngleErgo));
     let lengths = [
@@ -136,7 +137,7 @@ pub(crate) fn check(frame: &Frame, layout: &Layout) -> Result<(), Error> {
     ];
     let wrong = lengths
         .into_iter()
-        .find(|&(_, found, expected)| found != 0 && found != expected);
+        .find(|&(section, found, expected)| found != 0 && found != expected && section.is_in(version));
     wrong.map_or(Ok(()), |(section, found, expected)| {
         Err(Error::Misfit {
             section: section.name(),

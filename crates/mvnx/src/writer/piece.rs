@@ -1,12 +1,12 @@
 //! Markup of a document, written again in this version or the other.
 
 use super::left_out::Reason;
-use super::{HeldPose, Printer, Style, Version, Writer, write_poses};
+use super::{Poses, Printer, Style, Version, Writer, write_poses};
 use crate::calibration::CalibrationKind;
 use crate::markup::{Kind, Markup, Piece, Pieces};
 use crate::section::Section;
 use crate::{Calibration, Document, Error};
-use posewire_motion::Skeleton;
+use posewire_motion::{DQuat, Skeleton};
 use std::borrow::Cow;
 use std::io::Write;
 
@@ -93,39 +93,41 @@ impl<W: Write> Writer<W> {
     /// Writes the poses of calibration that files of the other version have.
     pub(super) fn write_converted_poses(&mut self, document: &Document) -> Result<(), Error> {
         let skeleton = &document.subject.skeleton;
-        let held = held_pose(skeleton, document.version(), &document.calibration);
-        let rate = document.header.frame_rate();
-        write_poses(
-            &mut self.printer,
-            self.numbers.layout,
-            self.version,
-            skeleton,
-            held,
-            rate,
-        )
+        let poses = poses(skeleton, document.version(), &document.calibration);
+        let (layout, rate) = (self.numbers.layout, document.header.frame_rate());
+        write_poses(&mut self.printer, layout, self.version, skeleton, &poses, rate)
     }
 }
 
-/// The T-pose as the body holds it, in ISB axes, from the poses of a file of this version.
-fn held_pose(skeleton: &Skeleton, version: Version, calibration: &[Calibration]) -> Option<HeldPose> {
-    let pose = |kind| calibration.iter().find(|pose| pose.kind == kind);
-    let (in_isb_axes, in_own_axes) = match version {
-        Version::V3 => (pose(CalibrationKind::TPose), None),
-        Version::V4 => (pose(CalibrationKind::TPoseIsb), pose(CalibrationKind::TPose)),
+/// What the frames of calibration of a file tell; what they do not is as in the null pose.
+fn poses(skeleton: &Skeleton, version: Version, calibration: &[Calibration]) -> Poses {
+    let frame = |kind| calibration.iter().find(|pose| pose.kind == kind);
+    let (null, held, held_in_own_axes) = match version {
+        Version::V3 => (CalibrationKind::NPose, CalibrationKind::TPose, None),
+        Version::V4 => (
+            CalibrationKind::Identity,
+            CalibrationKind::TPoseIsb,
+            frame(CalibrationKind::TPose),
+        ),
     };
-    let turned = |pose: &Calibration| {
-        let entries = pose.orientation.iter().zip(&skeleton.segments);
-        entries.map(|(q, segment)| q.map(|q| q * segment.isb)).collect()
-    };
-    let (orientation, pose) = match (in_isb_axes, in_own_axes) {
-        (Some(pose), _) => (pose.orientation.clone(), pose),
-        (None, Some(pose)) => (turned(pose), pose),
-        (None, None) => return None,
-    };
-    Some(HeldPose {
-        orientation,
-        position: pose.position.clone(),
-    })
+    let mut poses = Poses::of_null(skeleton);
+    if let Some(frame) = frame(null) {
+        // Of which segments the file tells, but their exact axes.
+        let known = |(q, isb): (&Option<DQuat>, &Option<DQuat>)| q.and(*isb);
+        let axes = frame.orientation.iter().zip(&poses.null.orientation);
+        poses.null.orientation = axes.map(known).collect();
+        poses.null.position.clone_from(&frame.position);
+        poses.held = poses.null.clone();
+    }
+    if let Some(frame) = frame(held) {
+        poses.held.orientation.clone_from(&frame.orientation);
+        poses.held.position.clone_from(&frame.position);
+    } else if let Some(frame) = held_in_own_axes {
+        let turned = frame.orientation.iter().zip(&skeleton.segments);
+        poses.held.orientation = turned.map(|(q, segment)| q.map(|q| q * segment.isb)).collect();
+        poses.held.position.clone_from(&frame.position);
+    }
+    poses
 }
 
 /// Whether an element holds nothing but numbers.

@@ -2,7 +2,9 @@
 
 mod contents;
 mod conventions;
+mod conversion;
 mod damage;
+mod described;
 mod made_up;
 mod reference;
 mod round_trip;

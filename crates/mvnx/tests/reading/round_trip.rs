@@ -2,7 +2,10 @@
 
 use crate::made_up::MadeUp;
 use crate::reference::reference;
-use posewire_mvnx::{LeftOut, Reader, Remainder, Version, Writer, read_take, rewrite, write_take};
+use posewire_motion::Frame;
+use posewire_mvnx::{Error, LeftOut, Reader, Remainder, Version, Writer, read_take, rewrite, write_take};
+use proptest::prelude::*;
+use std::sync::LazyLock;
 
 /// A file written again in a version.
 pub(crate) fn written(text: &str, version: Version) -> (String, Vec<LeftOut>) {
@@ -183,4 +186,58 @@ fn sections_that_go_and_come_are_written_so() {
     let (head, frames) = expected.split_at(expected.find("type=\"normal\"").unwrap());
     assert_same(&found, &(head.to_owned() + &frames.replace("\t\t\t</frame>", marker)));
     assert_eq!(left_out, []);
+}
+
+static RICH: LazyLock<String> = LazyLock::new(|| rich(4).write());
+
+/// The frames of a file that can be read to its end.
+fn frames(bytes: &[u8]) -> Result<Vec<Frame>, Error> {
+    Reader::new(bytes)?.collect()
+}
+
+/// What was read without an error reads the same when it was written again.
+fn assert_writable(bytes: &[u8]) -> Result<(), TestCaseError> {
+    let Ok(expected) = frames(bytes) else { return Ok(()) };
+    let mut reader = Reader::new(bytes).unwrap();
+    let version = reader.document().version();
+    let mut to = Vec::new();
+    rewrite(&mut reader, version, &mut to).unwrap();
+    let mut found = Reader::new(&to[..]).unwrap();
+    prop_assert_eq!(found.subject(), reader.subject());
+    let found: Vec<_> = found.by_ref().map(Result::unwrap).collect();
+    prop_assert!(found == expected);
+    for other in [Version::V3, Version::V4] {
+        let mut to = Vec::new();
+        rewrite(&mut Reader::new(bytes).unwrap(), other, &mut to).unwrap();
+        prop_assert_eq!(frames(&to).unwrap().len(), expected.len());
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 96, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_file_with_a_flipped_bit_is_written_as_it_was_read(place in 0..RICH.len(), bit in 0..8) {
+        let mut bytes = RICH.clone().into_bytes();
+        bytes[place] ^= 1_u8 << bit;
+        assert_writable(&bytes)?;
+    }
+
+    #[test]
+    fn a_file_without_some_lines_is_written_as_it_was_read(lines in proptest::collection::vec(0..RICH.lines().count(), 1..4)) {
+        let kept = RICH.split_inclusive('\n').enumerate().filter(|(number, _)| !lines.contains(number));
+        let text: String = kept.map(|(_, line)| line).collect();
+        assert_writable(text.as_bytes())?;
+    }
+
+    #[test]
+    fn any_bytes_in_a_file_are_written_as_they_were_read(place in 0..RICH.lines().count(), bytes in "[ -~\n]{0,40}") {
+        let mut lines: Vec<_> = RICH.lines().collect();
+        lines.insert(place, &bytes);
+        assert_writable(lines.join("\n").as_bytes())?;
+        let element = format!("<odd>{}</odd>", bytes.replace(['<', '&'], "&lt;"));
+        lines[place] = &element;
+        assert_writable(lines.join("\n").as_bytes())?;
+    }
 }
