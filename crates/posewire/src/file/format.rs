@@ -26,7 +26,12 @@ impl FileFormat {
         let allowed = self.allowed_axes();
         if let Some(found) = axes.filter(|axes| !allowed.contains(axes)) {
             let names: Vec<_> = allowed.iter().map(|axes| axes.name()).collect();
-            return Err(self.fixed("axes", names.join(" or "), found.name()));
+            let expected = if names.is_empty() {
+                OPENSIM.to_owned()
+            } else {
+                names.join(" or ")
+            };
+            return Err(self.fixed("axes", expected, found.name()));
         }
         if let Some(found) = unit.filter(|unit| self.has_fixed_unit() && *unit != usual_unit) {
             return Err(self.fixed("unit", symbol(usual_unit).to_owned(), symbol(found)));
@@ -95,7 +100,9 @@ impl FileFormat {
             Self::Mvnx | Self::MvnxGz => &[Axes::ZUp],
             Self::Csv | Self::Npz | Self::Parquet | Self::C3d => &[Axes::ZUp, Axes::YUp, Axes::Unity, Axes::Unreal],
             Self::Bvh | Self::Trc => &[Axes::YUp, Axes::ZUp],
-            Self::Mot | Self::Sto | Self::Gltf | Self::Glb => &[Axes::YUp],
+            Self::Gltf | Self::Glb => &[Axes::YUp],
+            // Their axes are OpenSim's own: X forward, Y up, Z to the right.
+            Self::Mot | Self::Sto => &[],
         }
     }
 
@@ -159,6 +166,8 @@ fn missing_samples(take: &Take) -> u64 {
     let steps = take.samples().windows(2).map(|pair| pair[1].saturating_sub(pair[0]));
     steps.map(|step| u64::from(step.saturating_sub(1))).sum()
 }
+
+const OPENSIM: &str = "OpenSim's (X forward, Y up, Z right)";
 
 const fn symbol(unit: Unit) -> &'static str {
     match unit {

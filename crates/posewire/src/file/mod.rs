@@ -25,6 +25,7 @@ mod bvh;
 mod csv;
 mod format;
 mod left_out;
+mod opensim;
 mod options;
 mod output;
 mod problem;
@@ -144,8 +145,8 @@ impl Job<'_> {
             FileFormat::Csv => csv::write(self, out),
             FileFormat::Bvh => bvh::write(self, out),
             FileFormat::Trc => Err(Problem::not_written(format)),
-            FileFormat::Mot => Err(Problem::not_written(format)),
-            FileFormat::Sto => Err(Problem::not_written(format)),
+            FileFormat::Mot => opensim::mot::write(self, out),
+            FileFormat::Sto => opensim::sto::write(self, out),
             FileFormat::Mvnx | FileFormat::MvnxGz => Err(Problem::not_written(format)),
         }
     }
