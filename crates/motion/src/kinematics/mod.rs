@@ -46,4 +46,4 @@ pub use joint_angles::{ergonomic_angles, joint_angles};
 pub use largest::Largest;
 pub use local::{local_poses, local_rotations, orientations};
 pub use resample::Resampler;
-pub use whole_take::{completed, resampled};
+pub use whole_take::{completed, continuous, dropouts, resampled};

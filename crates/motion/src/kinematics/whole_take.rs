@@ -1,7 +1,8 @@
 //! Kinematics of whole takes.
 
-use super::{Differences, Resampler, complete};
-use crate::{Error, Take};
+use super::check::Dropouts;
+use super::{ContinuousSigns, Differences, Resampler, complete};
+use crate::{Error, Frame, Take};
 use std::sync::Arc;
 
 /// The take at another rate: its samples through a [`Resampler`].
@@ -64,10 +65,38 @@ pub fn completed(take: &Take) -> Result<Take, Error> {
     Ok(done)
 }
 
+/// The take with signs of its quaternions that go on from one sample to the next: its samples through
+/// [`ContinuousSigns`].
+///
+/// # Errors
+/// None of a take whose sections fit its subject.
+pub fn continuous(take: &Take) -> Result<Take, Error> {
+    let mut signs = ContinuousSigns::new();
+    let mut done = Take::with_capacity(Arc::clone(&take.subject), take.rate, take.len());
+    let mut frame = Frame::new(Arc::clone(&take.subject));
+    for place in 0..take.len() {
+        take.read_frame(place, &mut frame);
+        signs.apply(&mut frame);
+        done.push(&frame)?;
+    }
+    Ok(done)
+}
+
+/// What is missing of a take: samples, and segments in them.
+pub fn dropouts(take: &Take) -> Dropouts {
+    let mut dropouts = Dropouts::new();
+    let mut frame = Frame::new(Arc::clone(&take.subject));
+    for place in 0..take.len() {
+        take.read_frame(place, &mut frame);
+        dropouts.add(&frame);
+    }
+    dropouts
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{DQuat, DVec3, Frame, Section, Skeleton, Subject};
+    use crate::{DQuat, DVec3, Section, Skeleton, Subject};
 
     fn take(samples: impl IntoIterator<Item = u32>) -> Take {
         let subject = Arc::new(Subject::new("Ada", Skeleton::standard(0, false)));
@@ -91,6 +120,32 @@ mod tests {
         assert_eq!((fast.rate, fast.subject.rate), (120.0, Some(120.0)));
         assert_eq!(resampled(&fast, 0.0), Err(Error::Rate { found: 0.0 }));
         assert_eq!(resampled(&take([]), 120.0).unwrap().len(), 0);
+    }
+
+    #[test]
+    fn what_is_missing_of_a_take_is_told() {
+        let mut take = take([0, 1, 2, 5, 6]);
+        let mut frame = take.frame(4);
+        (frame.sample, frame.orientation[9]) = (7, None);
+        take.push(&frame).unwrap();
+        let dropouts = dropouts(&take);
+        assert_eq!(dropouts.missing().runs, [[3, 4]]);
+        let untracked: Vec<_> = dropouts.untracked().map(|runs| runs.count).collect();
+        assert_eq!((untracked[9], untracked.iter().sum()), (1, 1_u64));
+    }
+
+    #[test]
+    fn signs_of_a_take_go_on() {
+        let mut flipping = take([0]);
+        let mut frame = flipping.frame(0);
+        for sample in 1..4 {
+            frame.sample = sample;
+            frame.orientation = vec![Some(-frame.orientation[0].unwrap()); 23];
+            flipping.push(&frame).unwrap();
+        }
+        let signs = continuous(&flipping).unwrap();
+        let turns = signs.column(Section::Orientation).unwrap();
+        assert!((0..4).all(|sample| turns.quaternion(sample, 22) == Some(DQuat::IDENTITY)));
     }
 
     #[test]
