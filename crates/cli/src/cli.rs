@@ -58,7 +58,8 @@ pub(crate) struct Stream {
     /// Datagram types, by number and with commas, or `all`.
     ///
     /// 01 Euler, 02 quaternion, 03 points, 05 Unity, 12 meta, 13 scale, 20 joint angles, 21 linear and 22 angular
-    /// kinematics, 23 trackers, 24 centre of mass, 25 timecode. What a take lacks is computed where that is possible.
+    /// kinematics, 23 trackers, 24 centre of mass, 25 timecode. What a take lacks is computed where that is possible;
+    /// a centre of mass is then an estimate.
     #[arg(long, value_name = "TYPES", default_value = "02,12,13,20,24,25")]
     pub(crate) types: String,
 

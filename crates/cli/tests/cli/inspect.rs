@@ -274,7 +274,7 @@ verification
   not there       joint angles XZY
   not there       ergonomic angles ZXY
   not there       ergonomic angles XZY
-  ok              quaternion lengths: 0.0000006 off 1 (limit 0.00001)
+  ok              quaternion lengths off 1: 0.0000006 (limit 0.00001)
   ok              connector gaps: 0.0 mm (limit 50)
   ok              missing samples: 0 (limit 0)
   ok              out of order: 0 (limit 0)
@@ -313,7 +313,7 @@ fn what_is_wrong_with_a_take_is_told_with_its_place() {
     let found = verification(take);
     for line in [
         "  look at this    joint angles ZXY: 2.0000 deg (limit 0.003), jRightHip, sample 3\n",
-        "  look at this    quaternion lengths: 0.1000000 off 1 (limit 0.00001), Pelvis, sample 9\n",
+        "  look at this    quaternion lengths off 1: 0.1000000 (limit 0.00001), Pelvis, sample 9\n",
         "  look at this    connector gaps: 100.0 mm (limit 50), jRightHip, sample 2\n",
         "  look at this    missing samples: 4 (limit 0), sample 5\n",
         "  look at this    clock jitter (p99): ",

@@ -124,7 +124,7 @@ fn quaternions(verifier: &Verifier, skeleton: &Skeleton) -> Check {
     };
     let value = worst.as_ref().map(|(largest, _)| largest.value);
     let sample = worst.as_ref().map(|(largest, _)| largest.sample);
-    Check::new("quaternion lengths", value, LARGEST_LENGTH_ERROR, "off 1").at(worst.map(|(_, place)| place), sample)
+    Check::new("quaternion lengths off 1", value, LARGEST_LENGTH_ERROR, "").at(worst.map(|(_, place)| place), sample)
 }
 
 fn gaps(survey: &Survey, skeleton: &Skeleton) -> Check {

@@ -34,10 +34,9 @@ fn sentence(check: &Check) -> String {
         let note = check.note.as_ref().map(|note| format!(": {note}"));
         return format!("{}{}", check.name, note.unwrap_or_default());
     };
-    let unit = if check.unit == "samples" {
-        String::new()
-    } else {
-        format!(" {}", check.unit)
+    let unit = match check.unit {
+        "" | "samples" => String::new(),
+        unit => format!(" {unit}"),
     };
     let mut parts = vec![format!(
         "{}: {}{unit} (limit {})",
@@ -54,7 +53,7 @@ fn sentence(check: &Check) -> String {
 fn found(value: f64, unit: &str) -> String {
     let decimals = match unit {
         "deg" => 4,
-        "off 1" => 7,
+        "" => 7,
         "m/s" | "rad/s" => 3,
         "samples" => 0,
         _ => 1,
