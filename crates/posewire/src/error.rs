@@ -198,6 +198,26 @@ pub enum Error {
         /// What it holds.
         what: &'static str,
     },
+    /// Sample numbers of which a take has none.
+    #[error("expected samples from {from} to {to}, found those from {first} to {last}")]
+    NoSamples {
+        /// The first number asked for.
+        from: u32,
+        /// The last number asked for.
+        to: u32,
+        /// The first number there is.
+        first: u32,
+        /// The last number there is.
+        last: u32,
+    },
+    /// A rate that a take cannot be given.
+    #[error("expected a rate above 0 and at most 1,000 times the {captured} Hz of the take, found {found}")]
+    NewRate {
+        /// Samples a second that there are.
+        captured: String,
+        /// The rate as given.
+        found: String,
+    },
     /// A file that is there already.
     #[error("{} is there already", path.display())]
     Exists {
@@ -255,6 +275,8 @@ impl Error {
                 "leave the {what} out, or choose a format that is free in it, as CSV is"
             )),
             Self::Lacks { .. } => Some("posewire inspect says what the take holds".into()),
+            Self::NoSamples { .. } => Some("posewire inspect says which samples a take has".into()),
+            Self::NewRate { .. } => Some("leave the rate out to keep every sample".into()),
             Self::Exists { .. } => Some("choose another name, or replace it with --overwrite".into()),
             Self::Stopped { .. } => Some("nothing was left half written; start again when you like".into()),
             Self::Feature { feature, .. } => Some(format!("cargo install --path crates/cli --features {feature}")),
@@ -306,6 +328,8 @@ impl Error {
                 | Self::WriteOnly { .. }
                 | Self::Fixed { .. }
                 | Self::Exists { .. }
+                | Self::NoSamples { .. }
+                | Self::NewRate { .. }
                 | Self::Feature { .. }
         )
     }

@@ -23,8 +23,10 @@
 
 mod bvh;
 mod csv;
+mod edit;
 mod format;
 mod left_out;
+mod mvnx;
 mod opensim;
 mod options;
 mod output;
@@ -33,8 +35,10 @@ mod progress;
 mod read;
 mod save;
 mod text;
+mod utf16;
 
 pub use left_out::LeftOut;
+pub use mvnx::{Rewritten, rewrite};
 pub use options::{Axes, BvhOptions, CsvOptions, MvnxOptions, ParquetOptions, WriteOptions};
 pub use output::WriteSeek;
 pub use progress::Progress;
@@ -58,6 +62,8 @@ pub struct Recording {
     pub document: Option<Document>,
     /// What ended the file before its end, if something did and the frames before it were to be used.
     pub damage: Option<String>,
+    /// Whether there was a document that fits no more.
+    lost_document: bool,
 }
 
 impl From<Take> for Recording {
@@ -67,6 +73,7 @@ impl From<Take> for Recording {
             take,
             document: None,
             damage: None,
+            lost_document: false,
         }
     }
 }
@@ -111,7 +118,7 @@ fn write_to(
     };
     progress.begin(recording.take.len() as u64);
     let mut out = Output::new(out);
-    let left_out = job.write(format, recording.document.as_ref(), &mut out)?;
+    let left_out = job.write(format, recording, &mut out)?;
     out.finish()?;
     Ok(format
         .leaves_out(&recording.take, options.sections.as_deref())
@@ -134,7 +141,7 @@ impl Job<'_> {
     fn write(
         &self,
         format: FileFormat,
-        _document: Option<&Document>,
+        recording: &Recording,
         out: &mut Output<'_>,
     ) -> Result<LeftOut, Problem> {
         match format {
@@ -147,7 +154,7 @@ impl Job<'_> {
             FileFormat::Trc => Err(Problem::not_written(format)),
             FileFormat::Mot => opensim::mot::write(self, out),
             FileFormat::Sto => opensim::sto::write(self, out),
-            FileFormat::Mvnx | FileFormat::MvnxGz => Err(Problem::not_written(format)),
+            FileFormat::Mvnx | FileFormat::MvnxGz => mvnx::write(self, format, recording, out),
         }
     }
 

@@ -1,6 +1,7 @@
 //! How a take is written.
 
 use posewire_motion::{Handedness, Section, Space, Unit, Up};
+use posewire_mvnx::Version;
 
 /// How a take is written. The default is what the tools of each format expect.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -60,8 +61,8 @@ impl Axes {
 /// How MVNX is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MvnxOptions {
-    /// The version of the format, 3 or 4: that of the file that was read, else 4, if absent.
-    pub version: Option<u32>,
+    /// The version of the format: that of the file that was read, else 4, if absent.
+    pub version: Option<Version>,
 }
 
 /// How CSV is written.

@@ -3,12 +3,14 @@
 use crate::Error;
 use crate::endpoint::FileFormat;
 use std::io;
+use std::path::Path;
 
 /// Why a take could not be written: a failure of the output, whose place the writer of a format does not know, or an error
 /// that stands for itself.
 #[derive(Debug)]
 pub(crate) enum Problem {
     Output(io::Error),
+    Mvnx(posewire_mvnx::Error),
     Other(Error),
 }
 
@@ -32,6 +34,7 @@ impl Problem {
     pub(crate) fn at(self, place: &str) -> Error {
         match self {
             Self::Output(error) => Error::write(place, &error),
+            Self::Mvnx(error) => Error::take(Path::new(place), error),
             Self::Other(error) => error,
         }
     }
@@ -40,6 +43,15 @@ impl Problem {
 impl From<io::Error> for Problem {
     fn from(error: io::Error) -> Self {
         Self::Output(error)
+    }
+}
+
+impl From<posewire_mvnx::Error> for Problem {
+    fn from(error: posewire_mvnx::Error) -> Self {
+        match error {
+            posewire_mvnx::Error::Write { kind, message } => Self::Output(io::Error::new(kind, message)),
+            error => Self::Mvnx(error),
+        }
     }
 }
 

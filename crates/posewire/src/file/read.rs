@@ -1,5 +1,6 @@
 //! A whole take from a file.
 
+use super::utf16::Decoded;
 use super::{Progress, Recording};
 use crate::{Error, Result};
 use posewire_mvnx::{Reader, read_take};
@@ -16,7 +17,7 @@ pub struct ReadOptions {
     pub threads: Option<usize>,
 }
 
-/// Reads a whole take: an MVNX file of version 3 or 4, plain or gzipped.
+/// Reads a whole take: an MVNX file of version 3 or 4, plain or gzipped, in UTF-8 or UTF-16.
 ///
 /// `progress` counts bytes of the file.
 ///
@@ -24,38 +25,61 @@ pub struct ReadOptions {
 /// [`Error::Read`] when the file cannot be opened, [`Error::Take`] when it is not a take, [`Error::NoFrames`] when it holds
 /// no frame, [`Error::Stopped`] when `progress` says so.
 pub fn read(path: &Path, options: ReadOptions, progress: &Progress) -> Result<Recording> {
-    let file = File::open(path).map_err(|error| Error::read(path, &error))?;
-    let size = file.metadata().map_err(|error| Error::read(path, &error))?.len();
-    progress.begin(size);
-    let bytes = Watched { file, progress };
-    let recording = read_recording(bytes, options);
+    let mut reader = open(path, options, progress)?;
+    let take = read_take(&mut reader);
     // Salvaging, the reader takes a stop for damage.
-    if progress.is_stopped() {
-        return Err(Error::Stopped {
-            what: format!("reading {}", path.display()),
-        });
-    }
-    let recording = recording.map_err(|error| Error::take(path, error))?;
-    if recording.take.is_empty() {
+    let take = match take {
+        Ok(take) if !progress.is_stopped() => take,
+        Ok(_) => return Err(stopped(path)),
+        Err(error) => return Err(read_error(path, error, progress)),
+    };
+    if take.is_empty() {
         return Err(Error::NoFrames {
             path: path.display().to_string(),
         });
     }
-    Ok(recording)
-}
-
-fn read_recording(bytes: impl Read, options: ReadOptions) -> Result<Recording, posewire_mvnx::Error> {
-    let mut reader = Reader::new(BufReader::with_capacity(BUFFER, bytes))?.salvage(options.salvage);
-    let take = read_take(&mut reader)?;
     Ok(Recording {
-        take,
         document: Some(reader.document()),
         damage: reader.damage().map(ToString::to_string),
+        ..Recording::from(take)
     })
 }
 
+/// A reader of an MVNX file that stands before the first frame.
+pub(super) fn open<'a>(path: &Path, options: ReadOptions, progress: &'a Progress) -> Result<TakeReader<'a>> {
+    let failed = |error: io::Error| Error::read(path, &error);
+    let file = File::open(path).map_err(failed)?;
+    let about = file.metadata().map_err(failed)?;
+    if about.is_dir() {
+        return Err(failed(io::ErrorKind::IsADirectory.into()));
+    }
+    progress.begin(about.len());
+    let bytes = Decoded::new(Watched { file, progress }).map_err(failed)?;
+    let reader = Reader::new(BufReader::with_capacity(BUFFER, bytes));
+    let reader = reader.map_err(|error| read_error(path, error, progress))?;
+    Ok(reader.salvage(options.salvage).threads(options.threads.unwrap_or(0)))
+}
+
+/// What kept a file from being read.
+pub(super) fn read_error(path: &Path, error: posewire_mvnx::Error, progress: &Progress) -> Error {
+    if progress.is_stopped() {
+        return stopped(path);
+    }
+    Error::take(path, error)
+}
+
+pub(super) fn stopped(path: &Path) -> Error {
+    Error::Stopped {
+        what: format!("reading {}", path.display()),
+    }
+}
+
+/// A reader of a file whose bytes are counted.
+pub(super) type TakeReader<'a> = Reader<BufReader<Decoded<Watched<'a>>>>;
+
 /// A file that counts the bytes read from it and ends with an error when it is to be stopped.
-struct Watched<'a> {
+#[derive(Debug)]
+pub(super) struct Watched<'a> {
     file: File,
     progress: &'a Progress,
 }

@@ -4,6 +4,7 @@ use super::problem::Problem;
 use super::{LeftOut, Progress, Recording, WriteOptions, WriteSeek, write_to};
 use crate::endpoint::FileFormat;
 use crate::{Error, Result};
+use posewire_motion::Section;
 use std::ffi::OsString;
 use std::fs::{self, File, Metadata};
 use std::io;
@@ -41,27 +42,54 @@ pub fn save(target: &Target, recording: &Recording, options: &WriteOptions, prog
     let mut waiting = Vec::new();
     let mut left_out = LeftOut::new();
     for (path, options) in parts(target, recording, options) {
-        check(&path, target.overwrite)?;
-        let file = write_beside(&path, |out| {
-            left_out = write_to(target.format, recording, &options, progress, out)?;
-            Ok(())
-        });
-        let file = file.map_err(|problem| match problem {
-            Problem::Output(_) if progress.is_stopped() => Error::Stopped {
-                what: format!("writing {}", path.display()),
-            },
-            problem => problem.at(&path.display().to_string()),
+        let (file, missing) = write_part(&path, target.overwrite, progress, |out| {
+            write_to(target.format, recording, &options, progress, out)
         })?;
+        left_out = missing;
         waiting.push((path, file));
     }
-    let files = waiting
-        .into_iter()
-        .map(|(path, file)| {
-            let bytes = give_name(file, &path, target.overwrite)?;
-            Ok((path, bytes))
-        })
-        .collect::<Result<_>>()?;
+    let named = waiting.into_iter().map(|(path, file)| {
+        let bytes = give_name(file, &path, target.overwrite)?;
+        Ok((path, bytes))
+    });
+    let files = named.collect::<Result<_>>()?;
     Ok(Saved { files, left_out })
+}
+
+/// Saves one file that `fill` writes.
+pub(super) fn save_one(
+    target: &Target,
+    progress: &Progress,
+    fill: impl FnOnce(&mut dyn WriteSeek) -> Result<LeftOut, Problem>,
+) -> Result<Saved> {
+    let (file, left_out) = write_part(&target.path, target.overwrite, progress, fill)?;
+    let bytes = give_name(file, &target.path, target.overwrite)?;
+    Ok(Saved {
+        files: vec![(target.path.clone(), bytes)],
+        left_out,
+    })
+}
+
+/// Writes a file that has no name yet, and tells what is not in it.
+fn write_part(
+    path: &Path,
+    overwrite: bool,
+    progress: &Progress,
+    fill: impl FnOnce(&mut dyn WriteSeek) -> Result<LeftOut, Problem>,
+) -> Result<(NamedTempFile, LeftOut)> {
+    check(path, overwrite)?;
+    let mut left_out = LeftOut::new();
+    let file = write_beside(path, |out| {
+        left_out = fill(out)?;
+        Ok(())
+    });
+    match file {
+        Ok(file) => Ok((file, left_out)),
+        Err(Problem::Output(_)) if progress.is_stopped() => Err(Error::Stopped {
+            what: format!("writing {}", path.display()),
+        }),
+        Err(problem) => Err(problem.at(&path.display().to_string())),
+    }
 }
 
 impl Target {
@@ -86,14 +114,19 @@ fn parts(target: &Target, recording: &Recording, options: &WriteOptions) -> Vec<
         .take
         .sections()
         .filter(|section| asked.is_none_or(|asked| asked.contains(section)));
-    let parts = sections.map(|section| {
+    let part = |name: &str, sections: &[Section]| {
         let options = WriteOptions {
-            sections: Some(vec![section]),
+            sections: Some(sections.to_vec()),
             ..options.clone()
         };
-        (with_part(&target.path, section.name()), options)
-    });
-    parts.collect()
+        (with_part(&target.path, name), options)
+    };
+    // What belongs to no section has a file too.
+    let times = asked.is_none().then(|| part("frames", &[]));
+    sections
+        .map(|section| part(section.name(), &[section]))
+        .chain(times)
+        .collect()
 }
 
 /// `take.csv` with a part: `take_position.csv`.
