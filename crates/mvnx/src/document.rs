@@ -4,7 +4,7 @@ use crate::header::Header;
 use crate::input::MAX_PIECE;
 use crate::markup::{Kind, Markup, Piece};
 use crate::xml::Xml;
-use crate::{Calibration, Version};
+use crate::{Calibration, Error, Place, Version};
 use posewire_motion::Subject;
 use std::io::BufRead;
 use std::sync::Arc;
@@ -40,6 +40,30 @@ impl Document {
     /// Whose motion it is, in the canonical convention.
     pub fn subject(&self) -> &Arc<Subject> {
         &self.subject
+    }
+
+    /// Says that the frames come at another rate, samples a second, than those that were read.
+    ///
+    /// # Errors
+    /// [`Error::Value`] when no file can have this rate; nothing changes then.
+    pub fn set_rate(&mut self, rate: f64) -> Result<(), Error> {
+        if !(0.001..1e6).contains(&rate) {
+            return Err(Error::Value {
+                at: Place { line: 1, offset: 0 },
+                what: "subject frameRate",
+                expected: "samples a second",
+                found: rate.to_string(),
+            });
+        }
+        let value = rate.to_string();
+        self.around.head = self.around.head.with_attribute("subject", "frameRate", &value);
+        let attributes = &mut self.header.subject;
+        match attributes.iter_mut().find(|(name, _)| name == "frameRate") {
+            Some((_, old)) => *old = value,
+            None => attributes.push(("frameRate".to_owned(), value)),
+        }
+        Arc::make_mut(&mut self.subject).rate = Some(rate);
+        Ok(())
     }
 
     /// The poses of calibration.

@@ -74,6 +74,22 @@ impl Markup {
         Pieces { of: self, next: 0 }
     }
 
+    /// The same with an attribute of the first element of a name set to a value, which needs no escaping.
+    pub(crate) fn with_attribute(&self, element: &str, attribute: &str, value: &str) -> Self {
+        let mut to = Self::new(self.limit);
+        let mut searched = true;
+        for piece in self.pieces() {
+            if searched && piece.kind == Kind::Start && piece.name() == element {
+                searched = false;
+                to.push(piece.kind, &piece.with_attribute(attribute, value));
+            } else {
+                to.push(piece.kind, piece.text);
+            }
+        }
+        (to.skipped, to.left_out) = (self.skipped, self.left_out);
+        to
+    }
+
     /// Empties it for at most `limit` bytes of text. The memory stays.
     pub(crate) fn restart(&mut self, limit: usize) {
         self.text.clear();
@@ -251,6 +267,14 @@ impl<'a> Piece<'a> {
                 return Some(quote + 1..quote + 1 + length);
             }
             begin = quote + length + 2;
+        }
+    }
+
+    /// Of a start tag: the tag with an attribute set to a value, which needs no escaping.
+    pub(crate) fn with_attribute(&self, name: &str, value: &str) -> String {
+        match self.attribute_place(name) {
+            Some(place) => format!("{}{value}{}", &self.text[..place.start], &self.text[place.end..]),
+            None => format!("{} {name}=\"{value}\"", self.text.trim_ascii_end()),
         }
     }
 

@@ -85,7 +85,7 @@ impl<W: Write> Writer<W> {
         }
         match (self.printer.parent(), tag.name()) {
             ("point", "pos_b" | "pos_s") => Cow::Borrowed(self.version.offset()),
-            ("", "mvnx") => Cow::Owned(with_version(tag, self.version)),
+            ("", "mvnx") => Cow::Owned(tag.with_attribute("version", &self.version.to_string())),
             _ => Cow::Borrowed(tag.text),
         }
     }
@@ -137,12 +137,4 @@ fn is_numbers<W: Write>(printer: &Printer<W>, tag: Piece<'_>) -> bool {
         "frame" => Section::of(tag.name()).is_some(),
         _ => false,
     }
-}
-
-/// The root's start tag with this version.
-fn with_version(tag: Piece<'_>, version: Version) -> String {
-    let Some(value) = tag.attribute_place("version") else {
-        return tag.text.to_owned();
-    };
-    format!("{}{version}{}", &tag.text[..value.start], &tag.text[value.end..])
 }

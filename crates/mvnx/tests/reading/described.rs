@@ -326,6 +326,24 @@ proptest! {
 }
 
 #[test]
+fn a_document_of_another_rate_differs_in_it_alone() {
+    let text = MadeUp::default().write();
+    for (text, rate) in [(text.clone(), 60.0), (text.replace("frameRate=\"100\" ", ""), 29.97)] {
+        let mut document = Reader::new(text.as_bytes()).unwrap().document();
+        assert!(document.set_rate(f64::NAN).is_err());
+        document.set_rate(rate).unwrap();
+        assert_eq!(
+            (document.subject().rate, document.header().frame_rate()),
+            (Some(rate), Some(rate))
+        );
+        let (found, _) = write(&document, Version::V4, &[]);
+        let reader = Reader::new(found.as_bytes()).unwrap();
+        assert_eq!(reader.subject(), document.subject());
+        assert!(found.contains(&format!("frameRate=\"{rate}\"")) && found.contains("odd=\"kept\""));
+    }
+}
+
+#[test]
 fn a_take_of_another_source_is_written_and_read() {
     let subject = Arc::new(ada(1, false));
     let mut take = Take::new(Arc::clone(&subject), 60.0);
