@@ -1,8 +1,10 @@
 //! Where frames go.
 
 mod mxtp;
+mod take;
 
 pub use mxtp::{MxtpSink, MxtpSinkOptions, Progress, TargetProgress};
+pub use take::TakeSink;
 
 use crate::queue::Policy;
 use crate::{Item, Result};
