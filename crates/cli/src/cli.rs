@@ -1,6 +1,8 @@
 //! The command line: verbs, options and the words that explain them.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use posewire::endpoint::FileFormat;
+use posewire_motion::Section;
 use posewire_natnet::Version;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -22,6 +24,7 @@ Where motion comes from and goes to:
   synthetic:walk            people made up on the spot, or with all that can be said of them:
                             \"synthetic:walk?people=2&rate=240&props=1&fingers=true\"
   take.mvnx, take.mvnx.gz   a take exported from MVN
+  take.bvh, .csv, .c3d ...  what convert writes for other tools; posewire convert --help lists them
 
 Put quotes around what has a ? or a &: shells give them a meaning of their own.
 
@@ -34,6 +37,7 @@ pub(crate) enum Command {
     Stream(Stream),
     Monitor(Monitor),
     Inspect(Inspect),
+    Convert(Convert),
     Explain(Explain),
     Demo(Demo),
 }
@@ -189,6 +193,125 @@ pub(crate) struct Inspect {
     /// Use a damaged file up to the damage.
     #[arg(long)]
     pub(crate) salvage: bool,
+}
+
+/// Write takes in the formats of other tools, or as MVNX again.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Formats, and the axes and unit that their tools expect:
+  mvnx, mvnx.gz   MVN's own: Z up, m                     csv      tables with MVN's names: Z up, m, degrees
+  bvh             animation, rigid bones: Y up, cm       c3d      landmarks and joint centres: Z up, mm
+  gltf, glb       a figure for any viewer: Y up, m       trc      the same for OpenSim: Y up, mm
+  npz             NumPy arrays: Z up, m, radians         mot      joint angles for OpenSim: degrees
+  parquet         columns for DuckDB, Polars, Spark      sto      orientations for OpenSense: Y up
+
+What a format cannot hold is said. A file appears whole or not at all; Ctrl-C leaves none behind. docs/convert.md says what
+each file holds and how it is named.
+
+Examples:
+  posewire convert take.mvnx take.bvh
+  posewire convert take.mvnx arm.csv --from 100 --to 500 --only position,joint_angles
+  posewire convert old.mvnx new.mvnx --mvnx-version 4
+  posewire convert monday/walk.mvnx tuesday/run.mvnx.gz for_opensim/ --format trc
+  posewire convert take.mvnx take.npz --rate 100 --axes unity
+  posewire convert \"synthetic:walk?fingers=true\" walk.glb --duration 10
+  posewire convert mxtp://0.0.0.0 live.mvnx               until Ctrl-C, a file for each subject")]
+pub(crate) struct Convert {
+    /// Takes (.mvnx, .mvnx.gz), synthetic:walk with --duration, or a live stream.
+    #[arg(required = true, num_args = 1.., value_name = "IN")]
+    pub(crate) inputs: Vec<String>,
+
+    /// The file to write, its format told by its name; or with --format a folder.
+    #[arg(value_name = "OUT")]
+    pub(crate) output: String,
+
+    /// The format, where OUT does not say it.
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) format: Option<FileFormat>,
+
+    /// The first sample to write, by its number.
+    #[arg(long, value_name = "SAMPLE")]
+    pub(crate) from: Option<u32>,
+
+    /// The last sample to write, by its number.
+    #[arg(long, value_name = "SAMPLE")]
+    pub(crate) to: Option<u32>,
+
+    /// Write so many samples a second, interpolated.
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    pub(crate) rate: Option<f64>,
+
+    /// Other axes than the format's tools expect.
+    #[arg(long, value_enum, ignore_case = true)]
+    pub(crate) axes: Option<Axes>,
+
+    /// Another unit of lengths.
+    #[arg(long, value_enum, ignore_case = true)]
+    pub(crate) unit: Option<Unit>,
+
+    /// Write these sections alone, with commas: position, orientation, velocity, joint_angles ...
+    ///
+    /// They are position, orientation, velocity, acceleration, angular_velocity, angular_acceleration, joint_angles,
+    /// joint_angles_xzy, ergonomic_angles, ergonomic_angles_xzy, sensor_orientation, sensor_free_acceleration,
+    /// sensor_acceleration, sensor_angular_velocity, sensor_magnetic_field, center_of_mass, center_of_mass_velocity and
+    /// center_of_mass_acceleration. One that the take lacks is computed where that is possible.
+    #[arg(long, value_name = "SECTION,...", value_delimiter = ',')]
+    pub(crate) only: Vec<Section>,
+
+    /// Replace files that are there already.
+    #[arg(long)]
+    pub(crate) overwrite: bool,
+
+    /// Use a damaged file up to the damage.
+    #[arg(long)]
+    pub(crate) salvage: bool,
+
+    /// Take so many seconds of the walker or of a live stream.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
+    pub(crate) duration: Option<Duration>,
+
+    /// The version of MVNX to write, 3 or 4: that of the file, else 4.
+    #[arg(long, value_name = "VERSION")]
+    pub(crate) mvnx_version: Option<posewire_mvnx::Version>,
+
+    /// CSV: a file for each section, named take_position.csv and so on.
+    #[arg(long)]
+    pub(crate) csv_sheets: bool,
+
+    /// BVH: place every joint where it was measured, in six channels, and not as rigid bones have it.
+    #[arg(long)]
+    pub(crate) bvh_translations: bool,
+
+    /// BVH: put the T-pose in the place of the first frame, as MVN can.
+    #[arg(long)]
+    pub(crate) bvh_t_pose: bool,
+
+    /// Parquet: whole millionths, lossless for MVNX and small.
+    #[arg(long)]
+    pub(crate) parquet_micro_units: bool,
+
+    /// Print a JSON object for each take.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Axes {
+    /// Right-handed, X forward, Y left, Z up: MVN.
+    ZUp,
+    /// Right-handed, X left, Y up, Z forward.
+    YUp,
+    /// Left-handed, X right, Y up, Z forward.
+    Unity,
+    /// Left-handed, X forward, Y right, Z up.
+    Unreal,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Unit {
+    M,
+    Cm,
+    Mm,
 }
 
 /// Explain the bytes of MXTP datagrams or NatNet packets, field by field.
