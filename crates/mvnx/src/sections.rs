@@ -1,11 +1,10 @@
 //! What sections the frames of a file hold, for `inspect`.
 
+use crate::elements::Elements;
 use crate::error::clip;
 use crate::number::count_words;
 use crate::section::Section;
-use crate::xml::Xml;
 use crate::{Error, Place};
-use std::io::BufRead;
 
 /// A section as the frames of a file hold it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -50,7 +49,7 @@ impl SectionSummary {
     }
 
     /// Passes over the unknown section on whose start tag the reader stands, and counts it.
-    pub(crate) fn read_unknown<R: BufRead>(&mut self, xml: &mut Xml<R>) -> Result<(), Error> {
+    pub(crate) fn read_unknown(&mut self, xml: &mut impl Elements) -> Result<(), Error> {
         let name = clip(xml.name());
         if let Some(info) = self.find(&name) {
             info.frames += 1;

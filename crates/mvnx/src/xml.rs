@@ -1,5 +1,6 @@
 //! XML one step at a time, with bounded memory and the place of everything.
 
+use crate::elements::Elements;
 use crate::error::clip;
 use crate::input::{Input, io_error};
 use crate::markup::Markup;
@@ -293,6 +294,49 @@ impl<R: BufRead> Xml<R> {
     }
 }
 
+impl<R: BufRead> Elements for Xml<R> {
+    fn offset(&self) -> u64 {
+        self.events.get_ref().place().offset
+    }
+
+    fn place(&self) -> Place {
+        self.place()
+    }
+
+    fn name(&self) -> &str {
+        self.name()
+    }
+
+    fn each_attribute(&self, mut read: impl FnMut(&str, &str) -> Result<(), Error>) -> Result<(), Error> {
+        let attributes = self.attributes()?;
+        attributes.iter().try_for_each(|(name, value)| read(name, value))
+    }
+
+    fn child(&mut self) -> Result<bool, Error> {
+        self.child()
+    }
+
+    fn leaf(&mut self) -> Result<(&[u8], Place), Error> {
+        self.leaf()
+    }
+
+    fn leaf_string(&mut self) -> Result<String, Error> {
+        self.leaf_string()
+    }
+
+    fn skip(&mut self) -> Result<(), Error> {
+        self.skip()
+    }
+
+    fn skip_keeping(&mut self, limit: usize) -> Result<Raw, Error> {
+        self.skip_keeping(limit)
+    }
+
+    fn text(&self) -> &[u8] {
+        self.text()
+    }
+}
+
 impl<'a> Xml<&'a [u8]> {
     /// A reader of a part of a file, the first byte of which stands at `place` and within elements with these start tags.
     pub(crate) fn within(tags: &str, part: &'a [u8], place: Place) -> Result<Self, Error> {
@@ -306,6 +350,18 @@ impl<'a> Xml<&'a [u8]> {
 }
 
 impl Raw {
+    /// That of an element that holds text and nothing else.
+    pub(crate) fn of_leaf(name: &str, text: &str, limit: usize) -> Self {
+        let mut raw = Self {
+            limit,
+            ..Self::default()
+        };
+        for piece in ["<", name, ">", text, "</", name, ">"] {
+            raw.push([piece]);
+        }
+        raw
+    }
+
     fn push<const N: usize>(&mut self, pieces: [&str; N]) {
         for piece in pieces {
             let room = self.limit - self.text.len();

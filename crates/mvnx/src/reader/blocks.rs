@@ -1,7 +1,9 @@
 //! Cuts a file into blocks of whole frames, each of which can be parsed on its own.
 
+use crate::elements::Elements;
 use crate::frame::{FrameReader, FrameTag};
 use crate::rewind::Rewind;
+use crate::scan::Scan;
 use crate::sections::SectionSummary;
 use crate::xml::Xml;
 use crate::{Error, Place};
@@ -92,25 +94,35 @@ impl BlockParser {
     }
 
     pub(super) fn parse(&mut self, block: &mut Block) {
-        block.plain = self.read_frames(block).unwrap_or(false);
+        let (bytes, place) = (&block.bytes, block.place);
+        let mut scan = Scan::new(bytes, place);
+        block.plain = self
+            .read_frames(&mut scan, bytes.len(), &mut block.take)
+            .unwrap_or(false);
+        if !block.plain {
+            self.frames.summary = SectionSummary::default();
+            block.take = Take::new(Arc::clone(&self.frame.subject), 0.0);
+            let xml = Xml::within(AROUND, bytes, place);
+            let read = xml.and_then(|mut xml| self.read_frames(&mut xml, bytes.len(), &mut block.take));
+            block.plain = read.unwrap_or(false);
+        }
         block.sections = std::mem::take(&mut self.frames.summary);
     }
 
-    /// Reads all frames of a block that holds nothing else; `false` or an error when it does.
-    fn read_frames(&mut self, block: &mut Block) -> Result<bool, Error> {
-        let end = block.place.offset + block.bytes.len() as u64;
-        let mut xml = Xml::within(AROUND, &block.bytes, block.place)?;
-        while xml.input().place().offset < end {
+    /// Reads all frames of a block of `length` bytes that holds nothing else; `false` or an error when it does.
+    fn read_frames(&mut self, xml: &mut impl Elements, length: usize, take: &mut Take) -> Result<bool, Error> {
+        let end = xml.offset() + length as u64;
+        while xml.offset() < end {
             if !xml.child()? || xml.name() != "frame" {
                 return Ok(false);
             }
-            let tag = FrameTag::read(&xml, self.frame.subject.rate)?;
+            let tag = FrameTag::read(xml, self.frame.subject.rate)?;
             if !tag.is_normal() || !tag.is_numbered() {
                 return Ok(false);
             }
             self.frame.clear();
-            self.frames.read(&mut xml, &tag, 0, &mut self.frame)?;
-            if block.take.push(&self.frame).is_err() {
+            self.frames.read(xml, &tag, 0, &mut self.frame)?;
+            if take.push(&self.frame).is_err() {
                 return Ok(false);
             }
         }

@@ -25,7 +25,7 @@ pub fn read_take<R: BufRead>(reader: &mut Reader<R>) -> Result<Take, Error> {
 fn read_frames<R: BufRead>(reader: &mut Reader<R>, rate: f64, threads: usize, block: usize) -> Result<Take, Error> {
     let mut take = Take::new(Arc::clone(&reader.subject), rate);
     loop {
-        if threads > 1 && reader.can_take_blocks() {
+        if reader.can_take_blocks() {
             parallel::read_blocks(reader, &mut take, threads, block);
         }
         // What the blocks left is read one by one: the first frame, what is around damage, and the end of the file.
@@ -67,30 +67,31 @@ mod tests {
     fn outcome(
         bytes: &[u8],
         salvage: bool,
-        threads: usize,
-        block: usize,
+        read: impl Fn(&mut Reader<&[u8]>) -> Result<Take, Error>,
     ) -> Result<(Result<Take, Error>, Outcome), Error> {
         let mut reader = Reader::new(bytes)?.salvage(salvage);
-        let take = read_frames(&mut reader, 240.0, threads, block);
+        let take = read(&mut reader);
         let header = reader.header().clone();
         let (sections, counts) = (reader.sections().to_vec(), reader.counts().clone());
-        Ok((
-            take,
-            (
-                header,
-                reader.calibration().to_vec(),
-                sections,
-                counts,
-                reader.damage().cloned(),
-            ),
-        ))
+        let damage = reader.damage().cloned();
+        Ok((take, (header, reader.calibration().to_vec(), sections, counts, damage)))
     }
 
+    /// Compares with the reader's own iteration.
     fn check(bytes: &[u8], threads: usize, block: usize) -> Result<(), TestCaseError> {
         for salvage in [false, true] {
-            prop_assert_eq!(outcome(bytes, salvage, threads, block), outcome(bytes, salvage, 1, 0));
+            let whole = outcome(bytes, salvage, |reader| read_frames(reader, 240.0, threads, block));
+            prop_assert_eq!(whole, outcome(bytes, salvage, one_by_one));
         }
         Ok(())
+    }
+
+    fn one_by_one(reader: &mut Reader<&[u8]>) -> Result<Take, Error> {
+        let mut take = Take::new(Arc::clone(reader.subject()), 240.0);
+        for frame in reader {
+            take.push(&frame?).unwrap();
+        }
+        Ok(take)
     }
 
     fn frame(number: usize) -> String {
@@ -127,9 +128,9 @@ mod tests {
     }
 
     #[test]
-    fn a_take_is_the_same_from_one_thread_and_from_more() {
+    fn a_take_is_the_same_in_blocks_as_frame_by_frame() {
         let text = parts().concat();
-        let (take, _) = outcome(text.as_bytes(), false, 3, 500).unwrap();
+        let (take, _) = outcome(text.as_bytes(), false, |reader| read_frames(reader, 240.0, 3, 500)).unwrap();
         assert_eq!(take.map(|take| (take.len(), take.events().len())), Ok((30, 6)));
         for block in [1, 100, 200, 1000, 1 << 20] {
             check(text.as_bytes(), 3, block).unwrap();
@@ -138,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn many_unknown_sections_are_kept_as_one_thread_keeps_them() {
+    fn many_unknown_sections_are_kept_in_blocks_as_frame_by_frame() {
         let mut parts = parts();
         for (number, part) in parts[1..31].iter_mut().enumerate() {
             let mut odd = String::new();
@@ -162,11 +163,11 @@ mod tests {
 
     proptest! {
         #[test]
-        fn damage_is_the_same_to_one_thread_and_to_more(
+        fn damage_is_the_same_in_blocks_as_frame_by_frame(
             inserted in proptest::collection::vec((0..10_000_usize, 0..SNIPPETS.len()), 0..4),
             cut in proptest::option::of(0..10_000_usize),
             block in 1..2000_usize,
-            threads in 2..4_usize,
+            threads in 1..4_usize,
             compressed: bool,
         ) {
             let mut bytes = parts().concat().into_bytes();
@@ -184,7 +185,7 @@ mod tests {
         }
 
         #[test]
-        fn one_flipped_bit_is_the_same_to_one_thread_and_to_more(place in 0..10_000_usize, bit in 0..8, block in 1..2000_usize) {
+        fn one_flipped_bit_is_the_same_in_blocks_as_frame_by_frame(place in 0..10_000_usize, bit in 0..8, block in 1..2000_usize) {
             let mut bytes = parts().concat().into_bytes();
             let place = place % bytes.len();
             bytes[place] ^= 1_u8 << bit;
@@ -192,7 +193,7 @@ mod tests {
         }
 
         #[test]
-        fn parts_in_any_order_are_the_same_to_one_thread_and_to_more(
+        fn parts_in_any_order_are_the_same_in_blocks_as_frame_by_frame(
             moved in proptest::collection::vec((0..32_usize, 0..SNIPPETS.len() + 4), 1..5),
             block in 1..2000_usize,
         ) {
