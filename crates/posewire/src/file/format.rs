@@ -142,7 +142,12 @@ impl FileFormat {
         match self {
             Self::Mvnx | Self::MvnxGz | Self::Csv | Self::Npz | Self::Parquet => all,
             Self::C3d => Holds {
-                sections: &[Section::Position, Section::Orientation, Section::JointAngles],
+                sections: &[
+                    Section::Position,
+                    Section::Orientation,
+                    Section::JointAngles,
+                    Section::CenterOfMass,
+                ],
                 events: true,
                 times: false,
                 ..poses
@@ -169,7 +174,7 @@ fn missing_samples(take: &Take) -> u64 {
 
 const OPENSIM: &str = "OpenSim's (X forward, Y up, Z right)";
 
-const fn symbol(unit: Unit) -> &'static str {
+pub(super) const fn symbol(unit: Unit) -> &'static str {
     match unit {
         Unit::Metre => "m",
         Unit::Centimetre => "cm",

@@ -22,6 +22,7 @@
 //! ```
 
 mod bvh;
+mod c3d;
 mod csv;
 mod edit;
 mod format;
@@ -145,7 +146,7 @@ impl Job<'_> {
         out: &mut Output<'_>,
     ) -> Result<LeftOut, Problem> {
         match format {
-            FileFormat::C3d => Err(Problem::not_written(format)),
+            FileFormat::C3d => c3d::write(self, out),
             FileFormat::Gltf | FileFormat::Glb => Err(Problem::not_written(format)),
             FileFormat::Npz => Err(Problem::not_written(format)),
             FileFormat::Parquet => Err(Problem::not_written(format)),

@@ -19,7 +19,7 @@ use std::io;
 pub(super) struct Parameters {
     bytes: Vec<u8>,
     group: u8,
-    /// Where the value of POINT:DATA_START goes.
+    /// Where the value of `POINT:DATA_START` goes.
     data_start: Option<usize>,
 }
 
@@ -92,7 +92,11 @@ impl Parameters {
             self.record(name, Kind::Text, &[0, 0], &[]);
         }
         for (number, part) in (1..).zip(texts.chunks(MOST)) {
-            let suffix = if number == 1 { String::new() } else { format!("{number}") };
+            let suffix = if number == 1 {
+                String::new()
+            } else {
+                format!("{number}")
+            };
             self.table(&format!("{name}{suffix}"), part);
         }
     }
@@ -190,7 +194,7 @@ mod tests {
         parameters.texts("LABELS", &texts);
         let (bytes, _) = parameters.finish().unwrap();
         let second = bytes.windows(7).position(|name| name == b"LABELS2").unwrap();
-        assert_eq!(bytes[second + 9..second + 16], *b"\xff\x02\x03\x2d255"[..].as_ref());
+        assert_eq!(bytes[second + 9..second + 16], b"\xff\x02\x03\x2d255"[..]);
     }
 
     #[test]
@@ -205,6 +209,10 @@ mod tests {
         let mut parameters = Parameters::new();
         parameters.texts("LABELS", &texts);
         let error = parameters.finish().unwrap_err();
-        assert!(error.to_string().starts_with("a C3D file has room for 130560 bytes of names, found 15"));
+        assert!(
+            error
+                .to_string()
+                .starts_with("a C3D file has room for 130560 bytes of names, found 15")
+        );
     }
 }

@@ -28,25 +28,29 @@ impl Track {
     }
 }
 
-/// The tracks of a take, places before angles.
+/// The tracks of the `wanted` sections of a take, places before angles.
 ///
 /// Every point of every segment is one, and the origin of a segment without points. A label that stands on several segments
 /// belongs to one of them: that of a joint to the segment whose origin it is, that of a landmark to the first. On the others
 /// the segment's name stands behind it, so that both ends of a joint are there.
-pub(super) fn tracks(take: &Take) -> Vec<Track> {
+pub(super) fn tracks(take: &Take, wanted: &[Section]) -> Vec<Track> {
     let skeleton = &take.subject.skeleton;
     let mut tracks = Vec::new();
-    if take.column(Section::Position).is_some() {
+    if wanted.contains(&Section::Position) {
         let turned = take.column(Section::Orientation).is_some();
         let owners = owners(take);
         for (place, segment) in skeleton.segments.iter().enumerate() {
             add_points(&mut tracks, &owners, place, segment, turned);
         }
     }
-    if take.column(Section::CenterOfMass).is_some() {
-        tracks.push(track("CenterOfMass".to_owned(), "centre of mass of the body".to_owned(), Of::CenterOfMass));
+    if wanted.contains(&Section::CenterOfMass) {
+        tracks.push(track(
+            "CenterOfMass".to_owned(),
+            "centre of mass of the body".to_owned(),
+            Of::CenterOfMass,
+        ));
     }
-    if take.column(Section::JointAngles).is_some() {
+    if wanted.contains(&Section::JointAngles) {
         tracks.extend(skeleton.joints.iter().enumerate().map(|(joint, known)| {
             let label = format!("{}Angles", known.name.strip_prefix('j').unwrap_or(&known.name));
             let description = format!("{} abduction, rotation, flexion", known.name);
@@ -81,7 +85,10 @@ impl<'a> Values<'a> {
         let value = match track.of {
             Of::Point { segment, offset } => self.point(frame, segment, offset),
             Of::CenterOfMass => self.center_of_mass?.vector(frame, 0),
-            Of::JointAngles { joint } => self.joint_angles?.vector(frame, joint).map(|angles| angles.map(f64::to_degrees)),
+            Of::JointAngles { joint } => self
+                .joint_angles?
+                .vector(frame, joint)
+                .map(|angles| angles.map(f64::to_degrees)),
         };
         value.filter(|value| value.is_finite())
     }
@@ -98,7 +105,10 @@ impl<'a> Values<'a> {
 
 fn add_points(tracks: &mut Vec<Track>, owners: &HashMap<&str, usize>, place: usize, segment: &Segment, turned: bool) {
     // Only the origin is known of a segment that is not turned.
-    let points = segment.points.iter().filter(|point| turned || point.offset == DVec3::ZERO);
+    let points = segment
+        .points
+        .iter()
+        .filter(|point| turned || point.offset == DVec3::ZERO);
     let before = tracks.len();
     tracks.extend(points.map(|point| {
         let label = if owners.get(point.name.as_str()) == Some(&place) {
@@ -106,11 +116,17 @@ fn add_points(tracks: &mut Vec<Track>, owners: &HashMap<&str, usize>, place: usi
         } else {
             format!("{}_{}", point.name, segment.name)
         };
-        let of = Of::Point { segment: place, offset: point.offset };
+        let of = Of::Point {
+            segment: place,
+            offset: point.offset,
+        };
         track(label, format!("{} of {}", point.name, segment.name), of)
     }));
     if tracks.len() == before {
-        let of = Of::Point { segment: place, offset: DVec3::ZERO };
+        let of = Of::Point {
+            segment: place,
+            offset: DVec3::ZERO,
+        };
         tracks.push(track(segment.name.clone(), format!("origin of {}", segment.name), of));
     }
 }
@@ -143,7 +159,9 @@ fn make_unique(tracks: &mut [Track]) {
     for track in tracks {
         let label = shortened(track.label.trim(), LONGEST_LABEL).to_owned();
         let numbered = (2..).map(|number| format!("{label}_{number}"));
-        let mut choices = std::iter::once(label.clone()).filter(|label| !label.is_empty()).chain(numbered);
+        let mut choices = std::iter::once(label.clone())
+            .filter(|label| !label.is_empty())
+            .chain(numbered);
         let free = choices.find(|label| !taken.contains(label));
         track.label = free.unwrap_or(label);
         taken.insert(track.label.clone());
@@ -163,7 +181,13 @@ mod tests {
         let subject = Arc::new(Subject::new("Ada", skeleton));
         let mut take = Take::new(subject.clone(), 60.0);
         let mut frame = Frame::new(subject);
-        frame.position = frame.subject.skeleton.segments.iter().map(|segment| segment.origin).collect();
+        frame.position = frame
+            .subject
+            .skeleton
+            .segments
+            .iter()
+            .map(|segment| segment.origin)
+            .collect();
         frame.orientation = vec![Some(DQuat::IDENTITY); frame.position.len()];
         take.push(&frame).unwrap();
         take
@@ -172,16 +196,24 @@ mod tests {
     #[test]
     fn both_ends_of_a_joint_have_labels_of_their_own() {
         let take = standing(Skeleton::standard(1, false));
-        let tracks = tracks(&take);
+        let tracks = tracks(&take, &[Section::Position]);
         let values = Values::of(&take);
         let place = |label: &str| {
             let track = tracks.iter().find(|track| track.label == label);
-            values.read(track.unwrap_or_else(|| panic!("{label} is there")), 0).unwrap()
+            values
+                .read(track.unwrap_or_else(|| panic!("{label} is there")), 0)
+                .unwrap()
         };
-        assert_eq!(place("jRightElbow"), take.column(Section::Position).unwrap().vector(0, 9).unwrap());
+        assert_eq!(
+            place("jRightElbow"),
+            take.column(Section::Position).unwrap().vector(0, 9).unwrap()
+        );
         assert!(place("jRightElbow").distance(place("jRightElbow_RightUpperArm")) < 1e-9);
         assert!(place("pC7SpinalProcess").distance(place("pC7SpinalProcess_Neck")) < 0.2);
-        assert_eq!(place("Prop1Generic"), take.column(Section::Position).unwrap().vector(0, 23).unwrap());
+        assert_eq!(
+            place("Prop1Generic"),
+            take.column(Section::Position).unwrap().vector(0, 23).unwrap()
+        );
         let labels: HashSet<_> = tracks.iter().map(|track| &track.label).collect();
         assert_eq!(labels.len(), tracks.len());
     }
@@ -190,7 +222,7 @@ mod tests {
     fn without_orientations_there_are_origins_alone() {
         let mut take = standing(Skeleton::standard(0, false));
         take.remove_column(Section::Orientation);
-        let tracks = tracks(&take);
+        let tracks = tracks(&take, &[Section::Position]);
         assert!(tracks.len() >= 23);
         let values = Values::of(&take);
         assert!(tracks.iter().all(|track| values.read(track, 0).is_some()));
@@ -205,7 +237,10 @@ mod tests {
             segment.points.clear();
             segment.name = "Bone".to_owned();
         }
-        let labels: Vec<_> = tracks(&standing(skeleton)).into_iter().map(|track| track.label).collect();
+        let labels: Vec<_> = tracks(&standing(skeleton), &[Section::Position])
+            .into_iter()
+            .map(|track| track.label)
+            .collect();
         assert_eq!(labels, ["Bone", "Bone_2", "Bone_3"]);
     }
 }
