@@ -26,11 +26,15 @@ mod c3d;
 mod csv;
 mod edit;
 mod format;
+mod gltf;
 mod left_out;
+mod npz;
 mod mvnx;
 mod opensim;
 mod options;
 mod output;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod problem;
 mod progress;
 mod read;
@@ -147,9 +151,15 @@ impl Job<'_> {
     ) -> Result<LeftOut, Problem> {
         match format {
             FileFormat::C3d => c3d::write(self, out),
-            FileFormat::Gltf | FileFormat::Glb => Err(Problem::not_written(format)),
-            FileFormat::Npz => Err(Problem::not_written(format)),
-            FileFormat::Parquet => Err(Problem::not_written(format)),
+            FileFormat::Gltf | FileFormat::Glb => gltf::write(self, format, out),
+            FileFormat::Npz => npz::write(self, out),
+            #[cfg(feature = "parquet")]
+            FileFormat::Parquet => parquet::write(self, out),
+            #[cfg(not(feature = "parquet"))]
+            FileFormat::Parquet => Err(Problem::Other(Error::Feature {
+                what: "Parquet",
+                feature: "parquet",
+            })),
             FileFormat::Csv => csv::write(self, out),
             FileFormat::Bvh => bvh::write(self, out),
             FileFormat::Trc => Err(Problem::not_written(format)),

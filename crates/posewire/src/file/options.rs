@@ -46,6 +46,12 @@ impl Axes {
         }
     }
 
+    /// Those of a space; `None` for axes that have no name here.
+    pub(super) fn of(space: Space) -> Option<Self> {
+        let all = [Self::ZUp, Self::YUp, Self::Unity, Self::Unreal];
+        all.into_iter().find(|axes| axes.space(space.unit) == space)
+    }
+
     /// These axes with a unit.
     pub const fn space(self, unit: Unit) -> Space {
         let (up, handedness) = match self {
