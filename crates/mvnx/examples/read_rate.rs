@@ -6,7 +6,7 @@
 //! read_rate newlines FILE          the bytes alone: how many newlines there are
 //! ```
 
-use posewire_motion::Take;
+use posewire_motion::{Section, Take};
 use posewire_mvnx::{Reader, read_take};
 use std::error::Error;
 use std::fs::{self, File};
@@ -22,26 +22,33 @@ fn main() -> Result<(), Box<dyn Error>> {
     let threads = arguments.get(2).map_or(Ok(1), |threads| threads.parse())?;
     let start = Instant::now();
     let file = BufReader::with_capacity(256 << 10, File::open(path)?);
-    let (count, bytes) = match mode {
-        "take" => take(file, threads)?,
-        "stream" => (frames(Reader::new(file)?)?, 0),
-        "newlines" => (newlines(file)?, 0),
+    let (count, take) = match mode {
+        "take" => {
+            let take = read_take(&mut Reader::new(file)?.threads(threads))?;
+            (take.len(), Some(take))
+        }
+        "stream" => (frames(Reader::new(file)?)?, None),
+        "newlines" => (newlines(file)?, None),
         other => return Err(format!("no such mode: {other}").into()),
     };
     let (seconds, peak) = (start.elapsed().as_secs_f64(), peak_bytes());
-    println!("{{\"seconds\": {seconds:.4}, \"count\": {count}, \"column_bytes\": {bytes}, \"peak_bytes\": {peak}}}");
+    let (column_bytes, positions) = take.map_or((0, 0.0), |take| (column_bytes(&take), sum_of_positions(&take)));
+    println!(
+        "{{\"seconds\": {seconds:.4}, \"count\": {count}, \"sum_of_positions\": {positions:.6}, \
+         \"column_bytes\": {column_bytes}, \"peak_bytes\": {peak}}}"
+    );
     Ok(())
-}
-
-/// Frames, and bytes of the columns that hold them.
-fn take(file: impl BufRead, threads: usize) -> Result<(usize, usize), posewire_mvnx::Error> {
-    let take = read_take(&mut Reader::new(file)?.threads(threads))?;
-    Ok((take.len(), column_bytes(&take)))
 }
 
 fn column_bytes(take: &Take) -> usize {
     let columns = take.sections().filter_map(|section| take.column(section));
     columns.map(|column| size_of_val(column.values())).sum()
+}
+
+/// By which other readers are told to have read the same.
+fn sum_of_positions(take: &Take) -> f64 {
+    take.column(Section::Position)
+        .map_or(0.0, |column| column.values().iter().sum())
 }
 
 fn frames(mut reader: Reader<impl BufRead>) -> Result<usize, posewire_mvnx::Error> {
