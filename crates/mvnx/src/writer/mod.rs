@@ -32,7 +32,8 @@ use tag::Tags;
 /// What [`Reader::read_whole`](crate::Reader::read_whole) gave is written as it stood, so that a file of MVN's comes out
 /// byte for byte. In the other version than the document's, the arms' axes, the poses of calibration and the points'
 /// elements become those of that version, and what it has no place for is left out and told by
-/// [`finish`](Self::finish).
+/// [`finish`](Self::finish). Sections of sensors that MVN writes in version 3 only are kept in version 4: readers find
+/// sections by their names, and so nothing is lost on the way there and back.
 ///
 /// Memory does not grow with the length of the file. Writes of the destination are of 64 KiB and more.
 ///

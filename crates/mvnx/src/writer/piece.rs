@@ -30,6 +30,10 @@ impl<W: Write> Writer<W> {
             }
             Kind::Start => self.write_start(piece, pieces),
             Kind::End | Kind::EndOfEmpty => self.printer.end(),
+            Kind::Instruction if declares_other_encoding(piece) => {
+                let text = &piece.with_attribute("encoding", "UTF-8");
+                self.printer.content(Piece { text, ..piece })
+            }
             _ => self.printer.content(piece),
         }
     }
@@ -128,6 +132,12 @@ fn poses(skeleton: &Skeleton, version: Version, calibration: &[Calibration]) -> 
         poses.held.position.clone_from(&frame.position);
     }
     poses
+}
+
+/// Whether the text declares that the file was in another encoding before it was read.
+fn declares_other_encoding(piece: Piece<'_>) -> bool {
+    let encoding = piece.attribute("encoding").filter(|_| piece.tag_name() == "xml");
+    encoding.is_some_and(|encoding| !encoding.eq_ignore_ascii_case("UTF-8"))
 }
 
 /// Whether an element holds nothing but numbers.

@@ -130,6 +130,14 @@ fn any_layout_becomes_that_of_mvn() {
 }
 
 #[test]
+fn a_file_is_written_in_utf_8_and_says_so() {
+    let text = MadeUp::default().write();
+    assert_same(&again(&text.replacen("\"UTF-8\"", "\"UTF-16\"", 1)), &text);
+    let small = text.replacen("\"UTF-8\"", "'utf-8'", 1);
+    assert_same(&again(&small), &small);
+}
+
+#[test]
 fn a_take_without_frames_is_written_too() {
     for calibration in [true, false] {
         let text = MadeUp {
