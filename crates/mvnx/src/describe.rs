@@ -1,7 +1,7 @@
 //! Documents for subjects that come from no MVNX file.
 
 use crate::section::Layout;
-use crate::writer::{Poses, Printer, Style, attribute, text, write_poses};
+use crate::writer::{ONLY_IN_4, Poses, Printer, Style, attribute, text, write_poses};
 use crate::{Document, Error, Reader, Version};
 use posewire_motion::{Connector, Joint, Segment, SegmentKind, Skeleton, Subject};
 use std::collections::HashSet;
@@ -16,8 +16,8 @@ impl Document {
     /// the body. Names that MVNX has no room for are changed: a slash becomes an underscore, a second segment of one name
     /// gets its number.
     ///
-    /// A segment's parent is in the file where a joint connects the two.
-    /// What the subject does not know is not in the document: a date of recording, for one. Colour and the rate are.
+    /// A segment's parent is in the file where a joint connects the two. What the subject does not know, the date of
+    /// recording for one, is an empty attribute, since readers look for it.
     ///
     /// # Errors
     /// [`Error::TooMany`], [`Error::Value`] or [`Error::Cycle`] when no MVNX file can hold such a skeleton or rate.
@@ -66,25 +66,33 @@ impl<'a> Description<'a> {
             "\""
         ))?;
         to.leaf("comment", |_| {})?;
-        to.start(&self.subject_tag(subject, rate), Style::Lines);
+        to.start(&self.subject_tag(subject, rate, version), Style::Lines);
         to.leaf("comment", |_| {})?;
         self.write_definitions(&mut to, version)?;
         to.start(&self.frames_tag(), Style::Lines);
         let (layout, poses) = (Layout::of_segments(self.segments), Poses::of_null(self.skeleton));
         write_poses(&mut to, layout, version, self.skeleton, &poses, Some(rate))?;
-        while to.depth() > 0 {
-            to.end()?;
-        }
+        to.end()?;
+        to.end()?;
+        to.empty("securityCode code=\"\"")?;
+        to.end()?;
         to.finish()
     }
 
-    fn subject_tag(&self, subject: &Subject, rate: f64) -> String {
+    /// With all attributes that readers look for; those of which nothing is known are empty.
+    fn subject_tag(&self, subject: &Subject, rate: f64, version: Version) -> String {
         let label = attribute(&subject.name);
-        let color = subject
-            .color
-            .map_or_else(String::new, |color| format!(" torsoColor=\"#{color}\""));
+        let color = subject.color.map_or_else(String::new, |color| format!("#{color}"));
         let count = self.segments[0];
-        format!("subject label=\"{label}\"{color} frameRate=\"{rate}\" segmentCount=\"{count}\"")
+        let more = match version {
+            Version::V3 => Vec::new(),
+            Version::V4 => ONLY_IN_4.map(|name| format!(" {name}=\"\"")).to_vec(),
+        };
+        format!(
+            "subject label=\"{label}\" torsoColor=\"{color}\" frameRate=\"{rate}\" segmentCount=\"{count}\" \
+             recDate=\"\" originalFilename=\"\"{}",
+            more.concat()
+        )
     }
 
     fn frames_tag(&self) -> String {

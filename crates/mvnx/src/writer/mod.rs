@@ -12,6 +12,7 @@ mod version;
 
 pub(crate) use escape::{attribute, text};
 pub use left_out::{LeftOut, Reason};
+pub(crate) use piece::ONLY_IN_4;
 pub(crate) use poses::{Poses, write_poses};
 pub(crate) use printer::{Printer, Style};
 pub(crate) use tag::clock;

@@ -74,7 +74,10 @@ impl<W: Write> Writer<W> {
             ("subject", "footContactDefinition") if self.version == Version::V3 => {
                 self.left_out.add(name, Reason::Version(self.version));
             }
-            ("mvnx", "securityCode") => self.left_out.add(name, Reason::Converted),
+            ("mvnx", "securityCode") if tag.attribute("code").is_some_and(|code| !code.is_empty()) => {
+                self.left_out.add(name, Reason::Converted);
+                return false;
+            }
             ("frames", "frame") if self.frames == 0 && CalibrationKind::of(kind).is_some() => {}
             ("frames", "frame") => self.left_out.add(&format!("frame of type {kind}"), Reason::Converted),
             _ => return false,
@@ -89,6 +92,8 @@ impl<W: Write> Writer<W> {
         }
         match (self.printer.parent(), tag.name()) {
             ("point", "pos_b" | "pos_s") => Cow::Borrowed(self.version.offset()),
+            ("mvnx", "securityCode") => Cow::Owned(tag.with_attribute("code", "")),
+            ("mvnx", "subject") if self.version == Version::V4 => Cow::Owned(with_attributes_of_4(tag)),
             ("", "mvnx") => Cow::Owned(tag.with_attribute("version", &self.version.to_string())),
             _ => Cow::Borrowed(tag.text),
         }
@@ -133,6 +138,20 @@ fn poses(skeleton: &Skeleton, version: Version, calibration: &[Calibration]) -> 
     }
     poses
 }
+
+/// The subject's start tag with the attributes that readers of version 4 look for, empty where it had none.
+fn with_attributes_of_4(tag: Piece<'_>) -> String {
+    let mut text = tag.text.to_owned();
+    for name in ONLY_IN_4 {
+        if tag.attribute(name).is_none() {
+            text = Piece::start(&text).with_attribute(name, "");
+        }
+    }
+    text
+}
+
+/// Attributes of the subject that version 3 does not know.
+pub(crate) const ONLY_IN_4: [&str; 2] = ["configuration", "userScenario"];
 
 /// Whether the text declares that the file was in another encoding before it was read.
 fn declares_other_encoding(piece: Piece<'_>) -> bool {

@@ -25,18 +25,15 @@ impl Tags {
     }
 
     /// The start tag of a normal frame without its brackets: `time` in whole milliseconds, `tc` with the frame's number
-    /// within the second, `ms` in milliseconds since 1970 when the day is known.
+    /// within the second, `ms` in milliseconds since 1970, 0 when the day is not known.
     pub(crate) fn of(&mut self, frame: &Frame) -> String {
         let time = (frame.time + Duration::from_micros(500)).as_millis();
-        let ms = match frame.timecode {
-            // So MVN says that no clock was running.
-            None => Some(0),
-            Some(timecode) => self.epoch(timecode, frame.received),
-        };
+        let ms = frame.timecode.and_then(|timecode| self.epoch(timecode, frame.received));
+        // So MVN says that no clock was running.
+        let ms = ms.unwrap_or_default();
         let clock = clock(frame.timecode.unwrap_or_default(), self.rate);
-        let ms = ms.map_or_else(String::new, |ms| format!(" ms=\"{ms}\""));
         let index = frame.sample;
-        format!("frame time=\"{time}\" index=\"{index}\" tc=\"{clock}\"{ms} type=\"normal\"")
+        format!("frame time=\"{time}\" index=\"{index}\" tc=\"{clock}\" ms=\"{ms}\" type=\"normal\"")
     }
 
     /// Milliseconds since 1970 at a time of day: of the day of the frames before, or the one nearest to its receipt.
@@ -129,7 +126,7 @@ mod tests {
 
     #[test]
     fn a_received_frame_is_of_the_day_that_lies_nearest() {
-        assert_eq!(ms(&tags(None).of(&frame(10, None))), None);
+        assert_eq!(ms(&tags(None).of(&frame(10, None))), Some(0));
         for (received, expected) in [(DAY + 20, DAY + 10), (DAY - 20, DAY + 10), (DAY + 43_000_000, DAY + 10)] {
             assert_eq!(ms(&tags(None).of(&frame(10, Some(received)))), Some(expected));
         }
