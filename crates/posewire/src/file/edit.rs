@@ -33,20 +33,22 @@ impl Recording {
 
     /// Gives the take another rate, samples a second: see [`Resampler`](posewire_motion::kinematics::Resampler).
     ///
-    /// What stands around the frames in the file is gone then, because it states the rate.
-    ///
     /// # Errors
     /// [`Error::NewRate`] when the rate is none, or the take has none itself.
     pub fn resample(&mut self, rate: f64) -> Result<()> {
         if rate.to_bits() == self.take.rate.to_bits() {
             return Ok(());
         }
-        let wrong = |_| Error::NewRate {
-            captured: self.take.rate.to_string(),
+        let captured = self.take.rate.to_string();
+        let wrong = || Error::NewRate {
+            captured: captured.clone(),
             found: rate.to_string(),
         };
-        self.take = resampled(&self.take, rate).map_err(wrong)?;
-        self.lost_document |= self.document.take().is_some();
+        let resampled = resampled(&self.take, rate).map_err(|_| wrong())?;
+        if let Some(document) = &mut self.document {
+            document.set_rate(rate).map_err(|_| wrong())?;
+        }
+        self.take = resampled;
         Ok(())
     }
 

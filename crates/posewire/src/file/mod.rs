@@ -67,8 +67,6 @@ pub struct Recording {
     pub document: Option<Document>,
     /// What ended the file before its end, if something did and the frames before it were to be used.
     pub damage: Option<String>,
-    /// Whether there was a document that fits no more.
-    lost_document: bool,
 }
 
 impl From<Take> for Recording {
@@ -78,7 +76,6 @@ impl From<Take> for Recording {
             take,
             document: None,
             damage: None,
-            lost_document: false,
         }
     }
 }

@@ -45,9 +45,6 @@ pub(super) fn write(
     };
     to.finish()?;
     let mut all = LeftOut::new();
-    if recording.lost_document {
-        all.push("what the file said around its frames");
-    }
     left_out.iter().for_each(|line| all.push(line.to_string()));
     Ok(all)
 }
