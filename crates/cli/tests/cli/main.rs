@@ -1,5 +1,6 @@
 //! Runs the program as its users do.
 
+mod convert;
 mod demo;
 mod explain;
 mod inspect;
