@@ -28,8 +28,8 @@ mod edit;
 mod format;
 mod gltf;
 mod left_out;
-mod npz;
 mod mvnx;
+mod npz;
 mod opensim;
 mod options;
 mod output;
@@ -140,12 +140,7 @@ struct Job<'a> {
 
 impl Job<'_> {
     /// Writes the take. Each format has a file of its own here, with `fn write(job: &Job<'_>, out: &mut Output<'_>)`.
-    fn write(
-        &self,
-        format: FileFormat,
-        recording: &Recording,
-        out: &mut Output<'_>,
-    ) -> Result<LeftOut, Problem> {
+    fn write(&self, format: FileFormat, recording: &Recording, out: &mut Output<'_>) -> Result<LeftOut, Problem> {
         match format {
             FileFormat::C3d => c3d::write(self, out),
             FileFormat::Gltf | FileFormat::Glb => gltf::write(self, format, out),
@@ -159,7 +154,7 @@ impl Job<'_> {
             })),
             FileFormat::Csv => csv::write(self, out),
             FileFormat::Bvh => bvh::write(self, out),
-            FileFormat::Trc => Err(Problem::not_written(format)),
+            FileFormat::Trc => opensim::trc::write(self, out),
             FileFormat::Mot => opensim::mot::write(self, out),
             FileFormat::Sto => opensim::sto::write(self, out),
             FileFormat::Mvnx | FileFormat::MvnxGz => mvnx::write(self, format, recording, out),

@@ -23,13 +23,6 @@ impl Problem {
         })
     }
 
-    pub(crate) fn not_written(format: FileFormat) -> Self {
-        Self::Other(Error::NotSupportedYet {
-            endpoint: format!(".{}", format.ending()),
-            what: format.name(),
-        })
-    }
-
     /// The error for people, of an output at this place.
     pub(crate) fn at(self, place: &str) -> Error {
         match self {

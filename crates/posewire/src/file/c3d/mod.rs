@@ -11,7 +11,7 @@
 //! angles (degrees) from places, ANALOG with a rate although nothing is in it.
 
 mod parameters;
-mod tracks;
+pub(super) mod tracks;
 
 use super::format::symbol;
 use super::output::Output;

@@ -6,11 +6,11 @@ use std::collections::{HashMap, HashSet};
 
 /// One column of three numbers, with a label that no other has.
 #[derive(Debug)]
-pub(super) struct Track {
+pub(in crate::file) struct Track {
     /// Its name: `pSacrum`, `jRightElbow`, `RightElbowAngles`.
-    pub(super) label: String,
+    pub(in crate::file) label: String,
     /// What it is in words.
-    pub(super) description: String,
+    pub(in crate::file) description: String,
     of: Of,
 }
 
@@ -23,7 +23,7 @@ enum Of {
 
 impl Track {
     /// Whether it is an angle in degrees, not a place.
-    pub(super) fn is_angle(&self) -> bool {
+    pub(in crate::file) fn is_angle(&self) -> bool {
         matches!(self.of, Of::JointAngles { .. })
     }
 }
@@ -33,7 +33,7 @@ impl Track {
 /// Every point of every segment is one, and the origin of a segment without points. A label that stands on several segments
 /// belongs to one of them: that of a joint to the segment whose origin it is, that of a landmark to the first. On the others
 /// the segment's name stands behind it, so that both ends of a joint are there.
-pub(super) fn tracks(take: &Take, wanted: &[Section]) -> Vec<Track> {
+pub(in crate::file) fn tracks(take: &Take, wanted: &[Section]) -> Vec<Track> {
     let skeleton = &take.subject.skeleton;
     let mut tracks = Vec::new();
     if wanted.contains(&Section::Position) {
@@ -62,7 +62,7 @@ pub(super) fn tracks(take: &Take, wanted: &[Section]) -> Vec<Track> {
 }
 
 /// The columns of a take from which tracks are read.
-pub(super) struct Values<'a> {
+pub(in crate::file) struct Values<'a> {
     position: Option<&'a Column>,
     orientation: Option<&'a Column>,
     center_of_mass: Option<&'a Column>,
@@ -71,7 +71,7 @@ pub(super) struct Values<'a> {
 
 impl<'a> Values<'a> {
     /// Of a take.
-    pub(super) fn of(take: &'a Take) -> Self {
+    pub(in crate::file) fn of(take: &'a Take) -> Self {
         Self {
             position: take.column(Section::Position),
             orientation: take.column(Section::Orientation),
@@ -81,7 +81,7 @@ impl<'a> Values<'a> {
     }
 
     /// Where a track is in a frame, canonical, m, or how a joint is bent, degrees; `None` when it was not tracked.
-    pub(super) fn read(&self, track: &Track, frame: usize) -> Option<DVec3> {
+    pub(in crate::file) fn read(&self, track: &Track, frame: usize) -> Option<DVec3> {
         let value = match track.of {
             Of::Point { segment, offset } => self.point(frame, segment, offset),
             Of::CenterOfMass => self.center_of_mass?.vector(frame, 0),

@@ -5,6 +5,7 @@
 
 pub(super) mod mot;
 pub(super) mod sto;
+pub(super) mod trc;
 
 use posewire_motion::{DQuat, Take};
 use std::f64::consts::FRAC_1_SQRT_2;
