@@ -69,6 +69,11 @@ impl Markup {
         self.left_out
     }
 
+    /// Notes that so many bytes more are not kept.
+    pub(crate) fn leave_out(&mut self, bytes: u64) {
+        self.left_out += bytes;
+    }
+
     /// The pieces in order.
     pub(crate) fn pieces(&self) -> Pieces<'_> {
         Pieces { of: self, next: 0 }

@@ -7,7 +7,7 @@ use crate::section::{Layout, Section};
 /// are written, the order of its elements, comments and unknown elements, and what stood between it and the frame before.
 ///
 /// [`Reader::read_whole`](crate::Reader::read_whole) fills one, [`Writer::write_whole`](crate::Writer::write_whole) puts
-/// it back. One value serves for all frames of a file; it keeps up to 4 MiB of text.
+/// it back. One value serves for all frames of a file. Of a frame that takes more than 4 MiB of text, nothing is kept.
 #[derive(Clone, Debug, Default)]
 pub struct Remainder {
     pub(crate) markup: Markup,
@@ -32,6 +32,13 @@ impl Remainder {
         self.markup.restart(MAX_FRAME);
         self.negative_zeros.clear();
         self.frame = whole.last_element().unwrap_or_default();
+        if whole.left_out() > 0 {
+            // Where too much was read, the frame's own start tag may be missing.
+            self.markup.leave_out(whole.left_out());
+            self.frame = 0;
+            self.whole = whole;
+            return;
+        }
         let mut pieces = whole.pieces();
         let mut depth = 0_usize;
         while let Some(piece) = pieces.next() {

@@ -76,7 +76,7 @@ impl Omissions {
     /// Tells when not all of a stretch of markup was kept.
     pub(crate) fn too_large(&mut self, markup: &Markup) {
         if markup.left_out() > 0 {
-            self.add("unknown element", Reason::TooLarge);
+            self.add("unknown elements", Reason::TooLarge);
         }
     }
 

@@ -3,7 +3,7 @@
 use crate::made_up::MadeUp;
 use crate::reference::reference;
 use posewire_motion::Frame;
-use posewire_mvnx::{Error, LeftOut, Reader, Remainder, Version, Writer, read_take, rewrite, write_take};
+use posewire_mvnx::{Error, LeftOut, Reader, Reason, Remainder, Version, Writer, read_take, rewrite, write_take};
 use proptest::prelude::*;
 use std::sync::LazyLock;
 
@@ -194,6 +194,28 @@ fn sections_that_go_and_come_are_written_so() {
     let (head, frames) = expected.split_at(expected.find("type=\"normal\"").unwrap());
     assert_same(&found, &(head.to_owned() + &frames.replace("\t\t\t</frame>", marker)));
     assert_eq!(left_out, []);
+}
+
+#[test]
+fn what_is_too_large_to_be_kept_is_left_out_and_told() {
+    let text = MadeUp::default().write();
+    let element = format!("<odd>{}</odd>\n", "x".repeat(900 << 10));
+    let many = element.repeat(5);
+    let between = text.replacen(
+        "\t\t\t</frame>\n",
+        &format!("</frame>\n<frame type=\"ghost\"/>\n{many}"),
+        4,
+    );
+    let within = text.replacen("\t\t\t\t<velocity>", &format!("{many}<velocity>"), 1);
+    for large in [between, within] {
+        let (found, left_out) = written(&large, Version::V4);
+        assert_eq!(frames(found.as_bytes()), frames(text.as_bytes()));
+        assert_eq!(left_out.len(), 1);
+        assert_eq!(
+            (left_out[0].what.as_str(), left_out[0].reason),
+            ("unknown elements", Reason::TooLarge)
+        );
+    }
 }
 
 static RICH: LazyLock<String> = LazyLock::new(|| rich(4).write());
