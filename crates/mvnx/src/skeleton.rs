@@ -190,7 +190,11 @@ fn unit(q: DQuat) -> Option<DQuat> {
 fn exact(found: DQuat, nominal: DQuat) -> DQuat {
     let nominal = rotation::continuous(nominal, found);
     let same = (found - nominal).length() < 5e-6;
-    if same && found != DQuat::IDENTITY { nominal } else { found }
+    if same && found != DQuat::IDENTITY {
+        nominal
+    } else {
+        found
+    }
 }
 
 fn joints(header: &Header, places: &Places<'_>) -> Result<Vec<Joint>, Error> {
@@ -280,6 +284,15 @@ mod tests {
         assert_eq!(between(&[q], &[q]), [Some(DQuat::IDENTITY)]);
         assert_eq!(unit(DQuat::from_xyzw(-0.0, 0.0, 0.0, 1.0)), Some(DQuat::IDENTITY));
         assert_eq!(unit(DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0)), None);
+    }
+
+    #[test]
+    fn six_decimals_of_nominal_axes_are_the_nominal_axes() {
+        let nominal = standard::BODY_SEGMENTS[8].isb();
+        let rounded = DQuat::from_array((-nominal).to_array().map(|number| (number * 1e6).round() / 1e6));
+        assert_eq!(exact(rounded, nominal), -nominal);
+        let other = DQuat::from_rotation_z(0.001) * nominal;
+        assert_eq!(exact(other, nominal), other);
     }
 
     #[test]
