@@ -17,7 +17,7 @@ struct File {
 
 impl File {
     fn read(bytes: Vec<u8>) -> Self {
-        assert_eq!((bytes[..2].to_vec(), bytes.len() % 512), (vec![2, 0x50], 0));
+        assert_eq!(bytes[..2], [2, 0x50]);
         let (mut parameters, mut groups) = (HashMap::new(), HashMap::new());
         assert_eq!((bytes[513], bytes[515]), (0x50, 84));
         let mut at = 516;
@@ -79,6 +79,7 @@ impl File {
 fn points_are_in_millimetres_and_what_was_not_seen_is_marked() {
     let take = walk();
     let file = File::read(written(FileFormat::C3d, &take).0);
+    assert_eq!(file.bytes.len() % 512, 0);
     let position = take.column(Section::Position).unwrap();
     let expected = position.vector(2, FORE_ARM).unwrap() * 1000.0;
     let [x, y, z, residual] = file.point(2, "jRightElbow");
@@ -144,6 +145,9 @@ fn more_frames_than_a_word_counts_are_all_there() {
     assert_eq!(file.words("TRIAL:ACTUAL_START_FIELD"), [1, 0]);
     assert_eq!(file.words("TRIAL:ACTUAL_END_FIELD"), [4464, 1]);
     assert_eq!(file.point(69_999, "Thing 0"), [0.0, 0.0, 0.0, 0.0]);
+    // A reader that goes by the length of the file finds no frame more.
+    let begin = (usize::from(file.words("POINT:DATA_START")[0]) - 1) * 512;
+    assert_eq!(file.bytes.len(), begin + 70_000 * 16);
 }
 
 #[test]

@@ -59,8 +59,7 @@ pub(super) fn write(job: &Job<'_>, out: &mut Output<'_>) -> Result<LeftOut, Prob
         out.write_all(&frame)?;
         job.progress.advance(1)?;
     }
-    let length = take.len() * tracks.len() * POINT;
-    out.write_all(&[0; BLOCK][..length.next_multiple_of(BLOCK) - length])?;
+    out.write_all(&[0; BLOCK][..file.filling()])?;
     Ok(file.left_out(&wanted))
 }
 
@@ -170,6 +169,16 @@ impl File<'_> {
         for number in [x, y, z, residual] {
             to.extend_from_slice(&number.to_le_bytes());
         }
+    }
+
+    /// Bytes behind the last frame up to a whole block. There are none where the header cannot say how many frames there are:
+    /// some readers then go on to the end of the file.
+    fn filling(&self) -> usize {
+        if self.take.len() >= usize::from(u16::MAX) {
+            return 0;
+        }
+        let length = self.take.len() * self.tracks.len() * POINT;
+        length.next_multiple_of(BLOCK) - length
     }
 
     fn left_out(&self, wanted: &[Section]) -> LeftOut {
