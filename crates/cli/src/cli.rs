@@ -199,14 +199,17 @@ pub(crate) struct Inspect {
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Formats, and the axes and unit that their tools expect:
-  mvnx, mvnx.gz   MVN's own: Z up, m                     csv      tables with MVN's names: Z up, m, degrees
-  bvh             animation, rigid bones: Y up, cm       c3d      landmarks and joint centres: Z up, mm
-  gltf, glb       a figure for any viewer: Y up, m       trc      the same for OpenSim: Y up, mm
-  npz             NumPy arrays: Z up, m, radians         mot      joint angles for OpenSim: degrees
-  parquet         columns for DuckDB, Polars, Spark      sto      orientations for OpenSense: Y up
+  mvnx, mvnx.gz   MVN's own: Z up, m
+  csv             tables with the names of MVN's Excel export: Z up, m, degrees
+  bvh             animation, rigid bones: Y up, cm
+  gltf, glb       a figure for any viewer: Y up, m
+  c3d             landmarks and joint centres: Z up, mm
+  trc, mot, sto   OpenSim: the same (Y up, mm), joint angles (degrees), orientations of segments
+  npz             NumPy arrays: Z up, m, radians
+  parquet         columns for DuckDB, Polars and Spark: Z up, m, radians
 
-What a format cannot hold is said. A file appears whole or not at all; Ctrl-C leaves none behind. docs/convert.md says what
-each file holds and how it is named.
+What a format cannot hold is said. A file appears whole or not at all; Ctrl-C leaves none behind.
+docs/convert.md says what each file holds and how everything in it is named.
 
 Examples:
   posewire convert take.mvnx take.bvh
@@ -249,13 +252,8 @@ pub(crate) struct Convert {
     #[arg(long, value_enum, ignore_case = true)]
     pub(crate) unit: Option<Unit>,
 
-    /// Write these sections alone, with commas: position, orientation, velocity, joint_angles ...
-    ///
-    /// They are position, orientation, velocity, acceleration, angular_velocity, angular_acceleration, joint_angles,
-    /// joint_angles_xzy, ergonomic_angles, ergonomic_angles_xzy, sensor_orientation, sensor_free_acceleration,
-    /// sensor_acceleration, sensor_angular_velocity, sensor_magnetic_field, center_of_mass, center_of_mass_velocity and
-    /// center_of_mass_acceleration. One that the take lacks is computed where that is possible.
-    #[arg(long, value_name = "SECTION,...", value_delimiter = ',')]
+    /// Write these sections alone, with commas, as in position,orientation.
+    #[arg(long, value_name = "SECTION,...", value_delimiter = ',', long_help = SECTIONS)]
     pub(crate) only: Vec<Section>,
 
     /// Replace files that are there already.
@@ -270,11 +268,31 @@ pub(crate) struct Convert {
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     pub(crate) duration: Option<Duration>,
 
-    /// The version of MVNX to write, 3 or 4: that of the file, else 4.
+    /// Print a JSON object for each take.
+    #[arg(long)]
+    pub(crate) json: bool,
+
+    #[command(flatten)]
+    pub(crate) of_format: OfFormat,
+}
+
+const SECTIONS: &str = "\
+Write these sections alone, with commas: position, orientation, velocity, acceleration, angular_velocity, \
+angular_acceleration, joint_angles, joint_angles_xzy, ergonomic_angles, ergonomic_angles_xzy, sensor_orientation, \
+sensor_free_acceleration, sensor_acceleration, sensor_angular_velocity, sensor_magnetic_field, center_of_mass, \
+center_of_mass_velocity, center_of_mass_acceleration.
+
+One that the take lacks is computed where that is possible.";
+
+/// What one format alone can have.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Options of one format")]
+pub(crate) struct OfFormat {
+    /// MVNX: the version to write, 3 or 4; that of the file, else 4.
     #[arg(long, value_name = "VERSION")]
     pub(crate) mvnx_version: Option<posewire_mvnx::Version>,
 
-    /// CSV: a file for each section, named take_position.csv and so on.
+    /// CSV: a file for each section, `take_position.csv` and so on.
     #[arg(long)]
     pub(crate) csv_sheets: bool,
 
@@ -286,13 +304,15 @@ pub(crate) struct Convert {
     #[arg(long)]
     pub(crate) bvh_t_pose: bool,
 
-    /// Parquet: whole millionths, lossless for MVNX and small.
-    #[arg(long)]
-    pub(crate) parquet_micro_units: bool,
+    #[command(flatten)]
+    pub(crate) parquet: ParquetArguments,
+}
 
-    /// Print a JSON object for each take.
-    #[arg(long)]
-    pub(crate) json: bool,
+#[derive(Debug, Args)]
+pub(crate) struct ParquetArguments {
+    /// Parquet: whole millionths, lossless for MVNX and small.
+    #[arg(long = "parquet-micro-units", id = "parquet-micro-units")]
+    pub(crate) micro_units: bool,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -104,7 +104,7 @@ fn write_all(
     let names = plan::distinct_names(&recordings);
     let several = recordings.len() > 1;
     let reports = recordings.drain(..).zip(names).map(|(mut recording, name)| {
-        let computed = if plan.is_mvnx(job) {
+        let computed = if job.is_mvnx() {
             recording.complete(Section::ALL)
         } else {
             Vec::new()
@@ -160,14 +160,16 @@ fn tell(reports: &[Report], as_json: bool) -> anyhow::Result<()> {
 }
 
 impl Plan {
-    fn is_mvnx(&self, job: &Job) -> bool {
-        matches!(job.format, FileFormat::Mvnx | FileFormat::MvnxGz)
-    }
-
     /// Whether a file can be written frame by frame as it is read.
     fn passes_through(&self, job: &Job) -> bool {
-        let lacks_nothing = self.writing.sections.is_none();
-        self.is_mvnx(job) && self.rate.is_none() && lacks_nothing
+        // Sections asked for by name may have to be computed.
+        job.is_mvnx() && self.rate.is_none() && self.writing.sections.is_none()
+    }
+}
+
+impl Job {
+    fn is_mvnx(&self) -> bool {
+        matches!(self.format, FileFormat::Mvnx | FileFormat::MvnxGz)
     }
 }
 

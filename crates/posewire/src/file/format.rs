@@ -5,15 +5,21 @@ use crate::endpoint::FileFormat;
 use crate::{Error, Result};
 use posewire_motion::{Section, Space, Take, Unit};
 
-/// What of a take, besides numbers in sections, a format holds.
+/// What of a take a format holds.
 struct Holds {
     sections: &'static [Section],
-    contacts: bool,
-    markers: bool,
-    events: bool,
-    timecodes: bool,
-    /// Whether frames have times, and do not just follow each other at the rate.
-    times: bool,
+    others: &'static [Other],
+}
+
+/// What a take has besides numbers in sections.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Other {
+    Contacts,
+    Markers,
+    Events,
+    Timecodes,
+    /// Frames have times, and do not just follow each other at the rate.
+    Times,
 }
 
 impl FileFormat {
@@ -53,34 +59,21 @@ impl FileFormat {
             let wanted = asked.is_none_or(|asked| asked.contains(section));
             wanted && !holds.sections.contains(section)
         });
-        missed.for_each(|section| left_out.push(section.name().replace('_', " ")));
-        let missing = missing_samples(take);
-        if missing > 0 && !holds.times {
-            left_out.push(format!("{missing} missing samples, over which the frames close up"));
+        for section in missed {
+            left_out.push(section.name().replace('_', " "));
         }
-        if asked.is_some() {
-            return left_out;
+        for other in [
+            Other::Times,
+            Other::Contacts,
+            Other::Markers,
+            Other::Events,
+            Other::Timecodes,
+        ] {
+            let wanted = asked.is_none() || other == Other::Times;
+            if wanted && !holds.others.contains(&other) {
+                left_out.extend(other.found_in(take));
+            }
         }
-        let places = || 0..take.len();
-        let others = [
-            (
-                "foot contacts",
-                !holds.contacts && places().any(|place| !take.contacts(place).is_empty()),
-            ),
-            (
-                "markers",
-                !holds.markers && places().any(|place| !take.markers(place).is_empty()),
-            ),
-            ("events", !holds.events && !take.events().is_empty()),
-            (
-                "the time of day",
-                !holds.timecodes && take.timecodes().iter().any(Option::is_some),
-            ),
-        ];
-        others
-            .iter()
-            .filter(|(_, missed)| *missed)
-            .for_each(|(what, _)| left_out.push(*what));
         left_out
     }
 
@@ -125,22 +118,24 @@ impl FileFormat {
     const fn holds(self) -> Holds {
         let poses = Holds {
             sections: &[Section::Position, Section::Orientation],
-            contacts: false,
-            markers: false,
-            events: false,
-            timecodes: false,
-            times: true,
-        };
-        let all = Holds {
-            sections: Section::ALL,
-            contacts: true,
-            markers: false,
-            events: true,
-            timecodes: true,
-            times: true,
+            others: &[Other::Times],
         };
         match self {
-            Self::Mvnx | Self::MvnxGz | Self::Csv | Self::Npz | Self::Parquet => all,
+            // Its writer tells what it has no place for.
+            Self::Mvnx | Self::MvnxGz => Holds {
+                sections: Section::ALL,
+                others: &[
+                    Other::Contacts,
+                    Other::Markers,
+                    Other::Events,
+                    Other::Timecodes,
+                    Other::Times,
+                ],
+            },
+            Self::Csv | Self::Npz | Self::Parquet => Holds {
+                sections: Section::ALL,
+                others: &[Other::Contacts, Other::Events, Other::Timecodes, Other::Times],
+            },
             Self::C3d => Holds {
                 sections: &[
                     Section::Position,
@@ -148,9 +143,7 @@ impl FileFormat {
                     Section::JointAngles,
                     Section::CenterOfMass,
                 ],
-                events: true,
-                times: false,
-                ..poses
+                others: &[Other::Events],
             },
             Self::Mot => Holds {
                 sections: &[Section::JointAngles],
@@ -160,9 +153,28 @@ impl FileFormat {
                 sections: &[Section::Orientation],
                 ..poses
             },
-            Self::Bvh => Holds { times: false, ..poses },
+            Self::Bvh => Holds { others: &[], ..poses },
             Self::Trc | Self::Gltf | Self::Glb => poses,
         }
+    }
+}
+
+impl Other {
+    /// What of this a take has, in words.
+    fn found_in(self, take: &Take) -> Option<String> {
+        let any = |is_there: &dyn Fn(usize) -> bool| (0..take.len()).any(is_there);
+        let (is_there, what) = match self {
+            Self::Contacts => (any(&|frame| !take.contacts(frame).is_empty()), "foot contacts"),
+            Self::Markers => (any(&|frame| !take.markers(frame).is_empty()), "markers"),
+            Self::Events => (!take.events().is_empty(), "events"),
+            Self::Timecodes => (take.timecodes().iter().any(Option::is_some), "the time of day"),
+            Self::Times => {
+                let missing = missing_samples(take);
+                let what = format!("{missing} missing samples, over which the frames close up");
+                return (missing > 0).then_some(what);
+            }
+        };
+        is_there.then(|| what.to_owned())
     }
 }
 

@@ -27,6 +27,11 @@ impl LeftOut {
         self.0.push(what.into());
     }
 
+    /// Adds things.
+    pub(crate) fn extend(&mut self, things: impl IntoIterator<Item = String>) {
+        self.0.extend(things);
+    }
+
     /// This and what follows it.
     #[must_use]
     pub(crate) fn and(mut self, mut other: Self) -> Self {

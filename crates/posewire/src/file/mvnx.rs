@@ -23,14 +23,14 @@ pub(super) fn write(
     out: &mut Output<'_>,
 ) -> Result<LeftOut, Problem> {
     let described;
-    let (document, version) = match &recording.document {
-        Some(document) => (document, job.options.mvnx.version.unwrap_or(document.version())),
-        None => {
-            let version = job.options.mvnx.version.unwrap_or_default();
-            described = Document::describe(&job.take.subject, job.take.rate, version)?;
-            (&described, version)
-        }
+    let document = if let Some(document) = &recording.document {
+        document
+    } else {
+        let version = job.options.mvnx.version.unwrap_or_default();
+        described = Document::describe(&job.take.subject, job.take.rate, version)?;
+        &described
     };
+    let version = job.options.mvnx.version.unwrap_or(document.version());
     let mut to = Compressed::new(format, out);
     let left_out = {
         let mut writer = Writer::new(&mut to, document, version)?;
@@ -45,7 +45,7 @@ pub(super) fn write(
     };
     to.finish()?;
     let mut all = LeftOut::new();
-    left_out.iter().for_each(|line| all.push(line.to_string()));
+    all.extend(left_out.iter().map(ToString::to_string));
     Ok(all)
 }
 
@@ -95,7 +95,7 @@ pub fn rewrite(
         let left_out = writer.finish(&reader.document())?.1;
         to.finish()?;
         let mut all = LeftOut::new();
-        left_out.iter().for_each(|line| all.push(line.to_string()));
+        all.extend(left_out.iter().map(ToString::to_string));
         Ok(all)
     })?;
     Ok(Rewritten { saved, frames, damage })

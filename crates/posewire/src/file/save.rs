@@ -147,15 +147,23 @@ fn check(path: &Path, overwrite: bool) -> Result<()> {
     if !folder_of(path).is_dir() {
         return Err(refuse(io::ErrorKind::NotFound, "its folder is not there"));
     }
-    match fs::metadata(path).ok() {
-        None => Ok(()),
-        Some(there) if there.is_dir() => Err(refuse(io::ErrorKind::IsADirectory, "it is a folder")),
-        // To rename a file to the name of a device would remove the device.
-        Some(there) if !there.is_file() => Err(refuse(io::ErrorKind::InvalidInput, "it is not a file")),
-        Some(_) if !overwrite => Err(Error::Exists { path: path.to_owned() }),
-        Some(there) if is_read_only(&there) => Err(refuse(io::ErrorKind::PermissionDenied, "it is read-only")),
-        Some(_) => Ok(()),
+    let Ok(there) = fs::metadata(path) else {
+        return Ok(());
+    };
+    if there.is_dir() {
+        return Err(refuse(io::ErrorKind::IsADirectory, "it is a folder"));
     }
+    // To rename a file to the name of a device would remove the device.
+    if !there.is_file() {
+        return Err(refuse(io::ErrorKind::InvalidInput, "it is not a file"));
+    }
+    if !overwrite {
+        return Err(Error::Exists { path: path.to_owned() });
+    }
+    if is_read_only(&there) {
+        return Err(refuse(io::ErrorKind::PermissionDenied, "it is read-only"));
+    }
+    Ok(())
 }
 
 fn is_read_only(file: &Metadata) -> bool {

@@ -45,9 +45,13 @@ impl<R: Read> Decoded<R> {
     /// Adds more bytes of UTF-16 to what is ready.
     fn decode(&mut self, bytes: &[u8], big_endian: bool) {
         self.rest.extend_from_slice(bytes);
-        let unit = |pair: &[u8]| match big_endian {
-            true => u16::from_be_bytes([pair[0], pair[1]]),
-            false => u16::from_le_bytes([pair[0], pair[1]]),
+        let unit = |pair: &[u8]| {
+            let bytes = [pair[0], pair[1]];
+            if big_endian {
+                u16::from_be_bytes(bytes)
+            } else {
+                u16::from_le_bytes(bytes)
+            }
         };
         let mut units: Vec<_> = self.rest.chunks_exact(2).map(unit).collect();
         // The second half of the last character may be still to come.

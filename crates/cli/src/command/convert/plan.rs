@@ -248,6 +248,7 @@ fn samples(arguments: &Convert) -> Result<RangeInclusive<u32>, Usage> {
 }
 
 fn writing(arguments: &Convert) -> WriteOptions {
+    let format = &arguments.of_format;
     WriteOptions {
         axes: arguments.axes.map(|axes| match axes {
             Axes::ZUp => file::Axes::ZUp,
@@ -262,17 +263,17 @@ fn writing(arguments: &Convert) -> WriteOptions {
         }),
         sections: (!arguments.only.is_empty()).then(|| arguments.only.clone()),
         mvnx: MvnxOptions {
-            version: arguments.mvnx_version,
+            version: format.mvnx_version,
         },
         csv: CsvOptions {
-            file_per_section: arguments.csv_sheets,
+            file_per_section: format.csv_sheets,
         },
         bvh: BvhOptions {
-            translations: arguments.bvh_translations,
-            first_frame_is_t_pose: arguments.bvh_t_pose,
+            translations: format.bvh_translations,
+            first_frame_is_t_pose: format.bvh_t_pose,
         },
         parquet: ParquetOptions {
-            micro_units: arguments.parquet_micro_units,
+            micro_units: format.parquet.micro_units,
         },
     }
 }

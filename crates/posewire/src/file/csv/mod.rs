@@ -73,9 +73,10 @@ impl<'a> Table<'a> {
         }
         for column in &self.columns {
             for name in columns(column.section(), &take.subject.skeleton) {
-                match self.with_sheets {
-                    true => line.field(&quoted(&format!("{} {name}", sheet(column.section())))),
-                    false => line.field(&quoted(&name)),
+                if self.with_sheets {
+                    line.field(&quoted(&format!("{} {name}", sheet(column.section()))));
+                } else {
+                    line.field(&quoted(&name));
                 }
             }
         }

@@ -1,4 +1,4 @@
-//! Orientations of segments as OpenSense reads those of sensors: an STO file of quaternions.
+//! Orientations of segments as `OpenSense` reads those of sensors: an STO file of quaternions.
 
 use super::{NOT_TRACKED, TO_GROUND, label, times};
 use crate::endpoint::FileFormat;
@@ -23,13 +23,15 @@ pub(in crate::file) fn write(job: &Job<'_>, out: &mut Output<'_>) -> Result<Left
     )?;
     let mut line = Line::new('\t');
     line.field("time");
-    bodies.iter().for_each(|(_, name)| line.field(name));
+    for (_, name) in &bodies {
+        line.field(name);
+    }
     line.end(out, "\n")?;
     for (frame, time) in times(take).into_iter().enumerate() {
         line.number(time, super::DECIMALS);
-        bodies
-            .iter()
-            .for_each(|(segment, _)| add_body(orientation, frame, *segment, &mut line));
+        for (segment, _) in &bodies {
+            add_body(orientation, frame, *segment, &mut line);
+        }
         line.end(out, "\n")?;
         job.progress.advance(1)?;
     }
@@ -54,13 +56,12 @@ fn bodies(skeleton: &Skeleton) -> (Vec<(usize, String)>, LeftOut) {
             .iter()
             .zip(segments)
             .all(|(known, segment)| known.name == segment.name);
-    let body = |place: usize| match is_mvn {
-        true => OPENSIM
-            .get(place)
-            .copied()
-            .filter(|name| !name.is_empty())
-            .map(str::to_owned),
-        false => Some(label(&segments[place].name)),
+    let body = |place: usize| {
+        if !is_mvn {
+            return Some(label(&segments[place].name));
+        }
+        let name = OPENSIM.get(place).filter(|name| !name.is_empty())?;
+        Some((*name).to_owned())
     };
     let (mut bodies, mut others) = (Vec::new(), Vec::new());
     for (place, segment) in segments.iter().enumerate() {
@@ -129,11 +130,12 @@ mod tests {
 
     #[test]
     fn a_standing_person_is_turned_up_by_minus_ninety_degrees() {
-        let mut skeleton = Skeleton::default();
-        skeleton.segments = vec![
-            Segment::new("Left Hand", SegmentKind::Body),
-            Segment::new("Bat", SegmentKind::Body),
-        ];
+        let skeleton = Skeleton {
+            segments: ["Left Hand", "Bat"]
+                .map(|name| Segment::new(name, SegmentKind::Body))
+                .to_vec(),
+            ..Skeleton::default()
+        };
         let expected = "DataRate=60.000000\nDataType=Quaternion\nversion=3\nOpenSimVersion=4.5\nendheader\n\
             time\tLeft_Hand_imu\tBat_imu\n\
             0.000000\t0.70710678,-0.70710678,0.00000000,0.00000000\tNaN,NaN,NaN,NaN\n";
