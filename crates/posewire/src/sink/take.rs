@@ -64,15 +64,15 @@ fn keep(takes: &mut Vec<Take>, frame: &Frame) {
 fn paced(mut take: Take) -> Take {
     let stride = stride(take.samples());
     let rate = if take.rate > 0.0 {
-        take.rate
+        take.rate / f64::from(stride)
     } else {
-        measured_rate(&take)
+        measured_rate(&take, stride)
     };
     if stride == 1 {
         take.rate = rate;
         return take;
     }
-    let mut paced = Take::with_capacity(Arc::clone(&take.subject), rate / f64::from(stride), take.len());
+    let mut paced = Take::with_capacity(Arc::clone(&take.subject), rate, take.len());
     for mut frame in take.frames() {
         frame.sample /= stride;
         // It came out of a take with the same columns.
@@ -94,18 +94,23 @@ fn greatest_common_divisor(a: u32, b: u32) -> u32 {
     if b == 0 { a } else { greatest_common_divisor(b, a % b) }
 }
 
-/// Sample numbers a second by the source's clock, to a tenth.
-fn measured_rate(take: &Take) -> f64 {
+/// Samples a second by the source's clock, whose milliseconds leave it a little open: a whole number if one is near enough.
+fn measured_rate(take: &Take, stride: u32) -> f64 {
     let ends = |last: usize| {
         let elapsed = take.times()[last].checked_sub(take.times()[0])?.as_secs_f64();
         let samples = take.samples()[last].checked_sub(take.samples()[0])?;
-        Some((f64::from(samples) / elapsed * 10.0).round() / 10.0)
+        let rate = f64::from(samples) / f64::from(stride) / elapsed;
+        let open = rate * CLOCK_STEP / elapsed;
+        let whole = rate.round();
+        Some(if (whole - rate).abs() <= open { whole } else { rate })
     };
     let rate = take.len().checked_sub(1).and_then(ends);
     rate.filter(|rate| rate.is_finite() && *rate > 0.0)
         .unwrap_or(USUAL_RATE)
 }
 
+/// How far off the time between two samples can be, s: both are told in whole milliseconds.
+const CLOCK_STEP: f64 = 0.002;
 /// Of a stream of one sample: what MVN records with Awinda.
 const USUAL_RATE: f64 = 60.0;
 
@@ -118,7 +123,7 @@ mod tests {
     fn frame(subject: &Arc<Subject>, sample: u32) -> Frame {
         let mut frame = Frame::new(Arc::clone(subject));
         frame.sample = sample;
-        frame.time = Duration::from_micros(u64::from(sample) * 1_000_000 / 240);
+        frame.time = Duration::from_millis(u64::from(sample) * 1000 / 240);
         frame.position = vec![Some(DVec3::X); subject.skeleton.segments.len()];
         frame
     }
