@@ -47,7 +47,13 @@ pub fn read(path: &Path, options: ReadOptions, progress: &Progress) -> Result<Re
 
 /// A reader of an MVNX file that stands before the first frame.
 pub(super) fn open<'a>(path: &Path, options: ReadOptions, progress: &'a Progress) -> Result<TakeReader<'a>> {
-    let failed = |error: io::Error| Error::read(path, &error);
+    let failed = |error: io::Error| {
+        if progress.is_stopped() {
+            stopped(path)
+        } else {
+            Error::read(path, &error)
+        }
+    };
     let file = File::open(path).map_err(failed)?;
     let about = file.metadata().map_err(failed)?;
     if about.is_dir() {
