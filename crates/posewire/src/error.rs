@@ -266,7 +266,9 @@ impl Error {
             Self::Take { error, .. } => Some(take_help(error).into()),
             Self::NoFrames { .. } => Some("posewire inspect says what it holds; export it again from MVN".into()),
             Self::Rate { .. } => Some("leave --rate out to send every sample".into()),
-            Self::NotATarget { .. } => Some("give a network address, as in --to mxtp://127.0.0.1:9763".into()),
+            Self::NotATarget { .. } => {
+                Some("give a network address, as in --to mxtp://127.0.0.1:9763; posewire convert writes files".into())
+            }
             Self::Character { .. } => Some("start at a lower --character, or stream fewer people".into()),
             Self::Write { kind, .. } => Some(write_help(*kind).into()),
             Self::Format { .. } => Some("name one of these, as in --format csv".into()),

@@ -4,8 +4,12 @@ use crate::program::{Ended, assert_documented, objects, posewire, reference};
 use crate::takes::small_take;
 use serde_json::json;
 use std::fs;
-use std::io::Write;
 use std::path::Path;
+#[cfg(unix)]
+use std::{
+    io::{BufRead, BufReader, Read, Write},
+    process::{Child, Command, Stdio},
+};
 use tempfile::TempDir;
 
 fn folder(files: &[(&str, &[u8])]) -> TempDir {
@@ -28,7 +32,15 @@ fn text(folder: &TempDir, name: &str) -> String {
     fs::read_to_string(folder.path().join(name)).unwrap()
 }
 
-/// What is in the folder besides what was there.
+/// Does what Ctrl-C does.
+#[cfg(unix)]
+fn interrupt(child: &Child) {
+    let process = child.id().to_string();
+    let sent = Command::new("kill").args(["-INT", &process]).status();
+    assert!(sent.unwrap().success());
+}
+
+/// The names of what is in a folder.
 fn names(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).unwrap();
     let mut names: Vec<_> = entries
@@ -188,6 +200,42 @@ fn the_walker_becomes_a_file_for_each_person() {
     assert_refused(&folder, &[walk, "x.mvnx"], 2, "never ends");
 }
 
+#[cfg(unix)]
+#[test]
+fn a_live_stream_becomes_a_file_for_each_subject() {
+    let folder = TempDir::new().unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_posewire"))
+        .args(["convert", "mxtp://127.0.0.1:0", "live.mvnx", "--duration", "60"])
+        .current_dir(folder.path())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut said = BufReader::new(child.stderr.take().unwrap());
+    let mut line = String::new();
+    said.read_line(&mut line).unwrap();
+    let endpoint = line.trim_end().strip_prefix("listening on ").unwrap().to_owned();
+    let walk = "synthetic:walk?people=2";
+    let options = ["--rate", "60", "--duration", "0.5", "--types", "all"];
+    let sent = posewire(
+        folder.path(),
+        &[&["stream", walk, "--to", &endpoint], &options[..]].concat(),
+        b"",
+    );
+    assert_eq!(sent.code, Some(0), "{}", sent.err);
+    // What was sent is taken in before it ends.
+    interrupt(&child);
+    let mut rest = String::new();
+    said.read_to_string(&mut rest).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(0), "{rest}");
+    let files = names(folder.path());
+    assert_eq!(files.len(), 2, "{files:?}: {rest}");
+    for file in files {
+        let ended = posewire(folder.path(), &["inspect", &file], b"");
+        assert!(ended.out.contains("rate            60 Hz"), "{}", ended.out);
+        assert!(ended.out.contains("frames          30, samples "), "{}", ended.out);
+    }
+}
+
 #[test]
 fn a_file_that_is_there_is_replaced_only_when_asked() {
     let folder = folder(&[("take.mvnx", small_take(1).as_bytes()), ("take.bvh", b"old")]);
@@ -319,7 +367,6 @@ fn a_device_a_read_only_file_and_a_read_only_folder_are_left_alone() {
 #[cfg(unix)]
 #[test]
 fn ctrl_c_leaves_no_half_file() {
-    use std::process::{Command, Stdio};
     let folder = with_take(1);
     let fifo = folder.path().join("slow.mvnx");
     nix::unistd::mkfifo(&fifo, nix::sys::stat::Mode::S_IRWXU).unwrap();
@@ -334,11 +381,7 @@ fn ctrl_c_leaves_no_half_file() {
     let take = small_take(1);
     let (head, _) = take.split_once("</frames>").unwrap();
     slow.write_all(head.as_bytes()).unwrap();
-    let interrupted = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .unwrap();
-    assert!(interrupted.success());
+    interrupt(&child);
     // What comes never ends, until nobody reads it.
     while slow.write_all(b"<!-- and so on -->\n").is_ok() {}
     let output = child.wait_with_output().unwrap();
