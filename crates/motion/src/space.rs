@@ -216,7 +216,7 @@ mod tests {
         let unreal = |section| {
             let mut values = [1.0, 2.0, 3.0];
             Space::UNREAL.section_from_canonical(section, &mut values);
-            values
+            values.to_vec()
         };
         assert_eq!(unreal(Section::Position), [100.0, -200.0, 300.0]);
         assert_eq!(unreal(Section::Velocity), [100.0, -200.0, 300.0]);
@@ -225,7 +225,7 @@ mod tests {
         assert_eq!(unreal(Section::JointAngles), [1.0, 2.0, 3.0]);
         let mut values = [0.9, 0.1, 0.2, 0.3, f64::NAN, f64::NAN, f64::NAN, f64::NAN];
         Space::UNREAL.section_from_canonical(Section::Orientation, &mut values);
-        assert_eq!(values[..4], [0.9, -0.1, 0.2, -0.3]);
+        assert_eq!(values[..4].to_vec(), [0.9, -0.1, 0.2, -0.3]);
         assert!(values[4..].iter().all(|value| value.is_nan()));
     }
 

@@ -86,9 +86,9 @@ impl From<Take> for Recording {
 /// the format's tools expect. Where `out` ends with an error, what was written is no whole file.
 ///
 /// # Errors
-/// [`Error::Fixed`](crate::Error::Fixed) when the format cannot have the axes or the unit,
-/// [`Error::Lacks`](crate::Error::Lacks) when the take has nothing that it holds,
-/// [`Error::Write`](crate::Error::Write) when `out` fails, [`Error::Stopped`](crate::Error::Stopped) when `progress` says so.
+/// [`Error::Fixed`] when the format cannot have the axes or the unit,
+/// [`Error::Lacks`] when the take has nothing that it holds,
+/// [`Error::Write`] when `out` fails, [`Error::Stopped`] when `progress` says so.
 pub fn write(
     format: FileFormat,
     recording: &Recording,
