@@ -220,7 +220,7 @@ fn opensim_reads_markers() {
             assert_eq!(report["metadata"]["Units"], "mm");
             for (frame, place) in vectors(&report["columns"]["pTopOfHead"]).into_iter().enumerate() {
                 // OpenSim's ground: X forward, Y up, Z to the right.
-            let place = place.map(|place| DVec3::new(place.x, -place.z, place.y) / 1000.0);
+                let place = place.map(|place| DVec3::new(place.x, -place.z, place.y) / 1000.0);
                 assert_near(
                     place,
                     point(take, frame, "Head", "pTopOfHead"),

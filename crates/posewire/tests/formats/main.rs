@@ -4,6 +4,7 @@
 #![allow(clippy::float_cmp)]
 
 mod c3d;
+mod failures;
 mod gltf;
 mod npz;
 mod parquet;

@@ -1,13 +1,12 @@
-//! A zip archive of `NumPy` arrays (NEP 1, version 1.0).
+//! Arrays of `NumPy` (NEP 1, version 1.0), side by side in an archive.
 
 use super::super::output::Output;
-use std::io::{self, Seek, SeekFrom, Write};
-use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, ZipWriter};
+use super::container::Container;
+use std::io;
 
 /// An archive that is being written, one array after the other.
 pub(super) struct Archive<'a, 'b> {
-    zip: ZipWriter<Kept<'a, 'b>>,
+    container: Container<'a, 'b>,
     bytes: Vec<u8>,
 }
 
@@ -15,19 +14,18 @@ impl<'a, 'b> Archive<'a, 'b> {
     /// An archive without arrays.
     pub(super) fn new(out: &'a mut Output<'b>) -> Self {
         Self {
-            zip: ZipWriter::new(Kept { out, failure: None }),
+            container: Container::new(out),
             bytes: Vec::new(),
         }
     }
 
     /// Begins an array of `NumPy`'s type `descr`, whose values of `width` bytes follow row by row.
     pub(super) fn begin(&mut self, name: &str, descr: &str, shape: &[usize], width: usize) -> io::Result<()> {
-        let size = shape.iter().product::<usize>().saturating_mul(width);
-        let options = SimpleFileOptions::default()
-            .compression_method(CompressionMethod::Stored)
-            .large_file(size > LARGE);
-        self.zip.start_file(format!("{name}.npy"), options)?;
-        self.zip.write_all(&header(descr, shape))
+        let head = header(descr, shape);
+        let values = shape.iter().product::<usize>() as u64 * width as u64;
+        self.container
+            .begin(format!("{name}.npy"), head.len() as u64 + values)?;
+        self.container.write(&head)
     }
 
     /// Values of the array that was begun.
@@ -35,7 +33,7 @@ impl<'a, 'b> Archive<'a, 'b> {
         for value in values {
             self.bytes.extend_from_slice(&value);
         }
-        let written = self.zip.write_all(&self.bytes);
+        let written = self.container.write(&self.bytes);
         self.bytes.clear();
         written
     }
@@ -64,12 +62,8 @@ impl<'a, 'b> Archive<'a, 'b> {
     }
 
     /// Writes the archive's directory.
-    ///
-    /// # Errors
-    /// The first failure of the output, whenever it was.
     pub(super) fn finish(self) -> io::Result<()> {
-        let kept = self.zip.finish()?;
-        kept.failure.map_or(Ok(()), Err)
+        self.container.finish()
     }
 
     /// Texts are of one length, in four bytes a letter, with zeros behind.
@@ -99,44 +93,7 @@ fn header(descr: &str, shape: &[usize]) -> Vec<u8> {
     bytes
 }
 
-/// Keeps the first failure of an output and takes all that comes after it for written: an archive that is given up writes its
-/// directory, and would say on the terminal that it cannot.
-struct Kept<'a, 'b> {
-    out: &'a mut Output<'b>,
-    failure: Option<io::Error>,
-}
-
-impl Write for Kept<'_, '_> {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        if self.failure.is_none() {
-            self.failure = self.out.write_all(bytes).err();
-        }
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        if self.failure.is_none() {
-            self.failure = self.out.flush().err();
-        }
-        Ok(())
-    }
-}
-
-impl Seek for Kept<'_, '_> {
-    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        if self.failure.is_none() {
-            match self.out.seek(to) {
-                Ok(place) => return Ok(place),
-                Err(error) => self.failure = Some(error),
-            }
-        }
-        Ok(0)
-    }
-}
-
 const MAGIC: &[u8] = b"\x93NUMPY\x01\x00";
-/// Bytes from which an array needs the long form of a zip entry, with room for its header.
-const LARGE: usize = 0xFFFF_0000;
 
 #[cfg(test)]
 mod tests {

@@ -14,6 +14,7 @@
 //! Nothing in it needs `allow_pickle`. Arrays are stored as they are, which is what `numpy.savez` does.
 
 mod archive;
+mod container;
 
 use super::format::symbol;
 use super::output::Output;
@@ -29,10 +30,8 @@ use std::io;
 /// When `out` fails.
 pub(super) fn write(job: &Job<'_>, out: &mut Output<'_>) -> Result<LeftOut, Problem> {
     let mut archive = Archive::new(out);
-    let written = write_arrays(job, &mut archive);
-    // A failure of the output is the reason of all that follows from it.
+    write_arrays(job, &mut archive)?;
     archive.finish()?;
-    written?;
     Ok(LeftOut::new())
 }
 
