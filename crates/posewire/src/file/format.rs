@@ -77,6 +77,13 @@ impl FileFormat {
         left_out
     }
 
+    /// The samples that are missing in a file whose frames follow each other at the rate.
+    pub(super) fn closes_up(take: &Take) -> LeftOut {
+        let mut left_out = LeftOut::new();
+        left_out.extend(Other::Times.found_in(take));
+        left_out
+    }
+
     /// What its tools expect.
     const fn usual(self) -> (Axes, Unit) {
         match self {
@@ -143,7 +150,7 @@ impl FileFormat {
                     Section::JointAngles,
                     Section::CenterOfMass,
                 ],
-                others: &[Other::Events],
+                others: &[Other::Events, Other::Times],
             },
             Self::Mot => Holds {
                 sections: &[Section::JointAngles],

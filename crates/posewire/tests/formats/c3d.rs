@@ -4,9 +4,10 @@ use crate::{FORE_ARM, things, walk, written, written_with};
 use posewire::Error;
 use posewire::endpoint::FileFormat;
 use posewire::file::{Axes, Progress, Recording, WriteOptions, write};
-use posewire_motion::{Section, Unit};
+use posewire_motion::{Section, Take, Unit};
 use std::collections::HashMap;
 use std::io::Cursor;
+use std::sync::Arc;
 
 /// A file taken apart as the C3D User Guide has it.
 struct File {
@@ -148,6 +149,41 @@ fn more_frames_than_a_word_counts_are_all_there() {
     // A reader that goes by the length of the file finds no frame more.
     let begin = (usize::from(file.words("POINT:DATA_START")[0]) - 1) * 512;
     assert_eq!(file.bytes.len(), begin + 70_000 * 16);
+}
+
+#[test]
+fn a_sample_that_is_missing_is_a_frame_without_points() {
+    let whole = walk();
+    let mut take = Take::new(Arc::clone(&whole.subject), 60.0);
+    for (place, sample) in [(0, 100), (2, 103)] {
+        let mut frame = whole.frame(place);
+        frame.sample = sample;
+        take.push(&frame).unwrap();
+    }
+    let (bytes, left_out) = written(FileFormat::C3d, &take);
+    let file = File::read(bytes);
+    assert_eq!(
+        (file.header(5), file.point(1, "pSacrum")[3], file.point(3, "pSacrum")[3]),
+        (4, -1.0, 0.0)
+    );
+    assert_eq!(file.floats("EVENT:TIMES")[1], 3.0 / 60.0);
+    assert!(!left_out.iter().any(|line| line.contains("missing")), "{left_out}");
+}
+
+#[test]
+fn samples_that_are_far_apart_close_up() {
+    let mut take = things(1, 1);
+    let mut frame = take.frame(0);
+    frame.sample = u32::MAX;
+    take.push(&frame).unwrap();
+    let (bytes, left_out) = written(FileFormat::C3d, &take);
+    assert_eq!(File::read(bytes).header(5), 2);
+    assert!(
+        left_out
+            .iter()
+            .any(|line| line.starts_with("4294967294 missing samples")),
+        "{left_out}"
+    );
 }
 
 #[test]

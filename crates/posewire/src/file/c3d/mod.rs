@@ -45,19 +45,20 @@ pub(super) fn write(job: &Job<'_>, out: &mut Output<'_>) -> Result<LeftOut, Prob
         take,
         tracks: &tracks,
         space: job.space,
+        frames: frames(take),
     };
     let (parameters, data_block) = file.parameters().finish()?;
     out.write_all(&file.header(data_block))?;
     out.write_all(&parameters)?;
     let values = Values::of(take);
     let mut frame = Vec::with_capacity(tracks.len() * POINT);
-    for place in 0..take.len() {
+    for place in &file.frames {
         frame.clear();
         for track in &tracks {
-            file.add_point(&values, track, place, &mut frame);
+            file.add_point(&values, track, *place, &mut frame);
         }
         out.write_all(&frame)?;
-        job.progress.advance(1)?;
+        job.progress.advance(u64::from(place.is_some()))?;
     }
     out.write_all(&[0; BLOCK][..file.filling()])?;
     Ok(file.left_out(&wanted))
@@ -67,6 +68,8 @@ struct File<'a> {
     take: &'a Take,
     tracks: &'a [Track],
     space: Space,
+    /// For each frame of the file the place of the take's; `None` for a sample that is missing.
+    frames: Vec<Option<usize>>,
 }
 
 impl File<'_> {
@@ -116,7 +119,7 @@ impl File<'_> {
         to.float("RATE", self.take.rate as f32);
         to.data_start();
         to.word("FRAMES", self.short_length());
-        to.float("LONG_FRAMES", self.take.len() as f32);
+        to.float("LONG_FRAMES", self.frames.len() as f32);
         to.text("UNITS", symbol(self.space.unit));
         to.text("X_SCREEN", "+X");
         to.text("Y_SCREEN", if self.space.up == Up::Y { "+Y" } else { "+Z" });
@@ -131,7 +134,7 @@ impl File<'_> {
 
     /// The first frame and the last in two words each, the low one first.
     fn trial(&self, to: &mut Parameters) {
-        let last = self.take.len() as u32;
+        let last = self.frames.len() as u32;
         to.group("TRIAL");
         to.words("ACTUAL_START_FIELD", &[1, 0]);
         to.words("ACTUAL_END_FIELD", &[last as u16, (last >> 16) as u16]);
@@ -145,7 +148,8 @@ impl File<'_> {
         let times: Vec<f32> = events
             .iter()
             .flat_map(|(place, _)| {
-                let seconds = *place as f64 / self.take.rate;
+                let frame = self.frames.iter().position(|found| *found == Some(*place));
+                let seconds = frame.unwrap_or_default() as f64 / self.take.rate;
                 [(seconds / 60.0).floor() as f32, (seconds % 60.0) as f32]
             })
             .collect();
@@ -159,8 +163,8 @@ impl File<'_> {
         }
     }
 
-    fn add_point(&self, values: &Values<'_>, track: &Track, place: usize, to: &mut Vec<u8>) {
-        let (value, residual) = match values.read(track, place) {
+    fn add_point(&self, values: &Values<'_>, track: &Track, place: Option<usize>, to: &mut Vec<u8>) {
+        let (value, residual) = match place.and_then(|place| values.read(track, place)) {
             Some(angles) if track.is_angle() => (angles.to_array(), 0.0),
             Some(position) => (self.space.position_from_canonical(position).to_array(), 0.0),
             None => ([0.0; 3], NOT_TRACKED),
@@ -174,10 +178,10 @@ impl File<'_> {
     /// Bytes behind the last frame up to a whole block. There are none where the header cannot say how many frames there are:
     /// some readers then go on to the end of the file.
     fn filling(&self) -> usize {
-        if self.take.len() >= usize::from(u16::MAX) {
+        if self.frames.len() >= usize::from(u16::MAX) {
             return 0;
         }
-        let length = self.take.len() * self.tracks.len() * POINT;
+        let length = self.frames.len() * self.tracks.len() * POINT;
         length.next_multiple_of(BLOCK) - length
     }
 
@@ -185,6 +189,9 @@ impl File<'_> {
         let mut left_out = LeftOut::new();
         if wanted.contains(&Section::Position) && self.take.column(Section::Orientation).is_none() {
             left_out.push("landmarks, which need orientations");
+        }
+        if self.frames.len() == self.take.len() {
+            left_out = left_out.and(FileFormat::closes_up(self.take));
         }
         if let Some(more @ 1..) = self.take.events().len().checked_sub(MOST) {
             left_out.push(format!("the last {more} of {} events", self.take.events().len()));
@@ -194,8 +201,27 @@ impl File<'_> {
 
     /// As many frames as fit into a word without a sign.
     fn short_length(&self) -> u16 {
-        u16::try_from(self.take.len()).unwrap_or(u16::MAX)
+        u16::try_from(self.frames.len()).unwrap_or(u16::MAX)
     }
+}
+
+/// The frames of the file. C3D has no times, so a sample that is missing is a frame in which nothing was tracked, unless the
+/// samples' numbers are out of order or far apart.
+fn frames(take: &Take) -> Vec<Option<usize>> {
+    let samples = take.samples();
+    let (Some(first), Some(last)) = (samples.first(), samples.last()) else {
+        return Vec::new();
+    };
+    let rise = samples.is_sorted_by(|before, after| before < after);
+    let length = last.saturating_sub(*first) as usize + 1;
+    if !rise || length > take.len().saturating_mul(LONGEST) {
+        return (0..take.len()).map(Some).collect();
+    }
+    let mut frames = vec![None; length];
+    for (place, sample) in samples.iter().enumerate() {
+        frames[(sample - first) as usize] = Some(place);
+    }
+    frames
 }
 
 /// Readers break where the group or its rate is not there.
@@ -217,6 +243,8 @@ fn no_force_plates(to: &mut Parameters) {
     to.word("USED", 0);
 }
 
+/// How many times as many frames as the take has a file may have for the sake of time.
+const LONGEST: usize = 10;
 /// Bytes of a point of a frame.
 const POINT: usize = 16;
 /// A scale below 0 says that coordinates are `f32`.

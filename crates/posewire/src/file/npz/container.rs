@@ -1,6 +1,7 @@
 //! A zip file of entries that are stored as they are (PKWARE's APPNOTE 6.3, 4.3).
 //!
-//! Its own, because the `zip` crate writes its directory, or panics, when a writer is dropped whose output has failed.
+//! Its own, because a writer of the `zip` crate that is dropped after its output has failed tries to write its directory, and
+//! complains on the terminal that it cannot.
 
 use super::super::output::Output;
 use flate2::Crc;
