@@ -21,6 +21,10 @@ Where motion comes from and goes to:
                             a multicast group is joined; ?interface=eth0 says where, ?ttl=4 how far
   mxtp+tcp://HOST[:9763]    MXTP over TCP; stream connects and monitor listens, as with MVN
                             ?mode=listen and ?mode=connect turn that round
+  natnet://HOST[:1510]      NatNet, as Motive serves it; as a target, be Motive: natnet://0.0.0.0
+                            ?mode=multicast sends to a group; ?version=3.1 asks for a bitstream, or sends
+                            no newer one; also data-port, group, interface, up=z, skeleton=local,
+                            and of a target copy=true for clients that listen only at the data port
   synthetic:walk            people made up on the spot, or with all that can be said of them:
                             \"synthetic:walk?people=2&rate=240&props=1&fingers=true\"
   take.mvnx, take.mvnx.gz   a take exported from MVN
@@ -42,7 +46,7 @@ pub(crate) enum Command {
     Demo(Demo),
 }
 
-/// Send a take, a walker or a live stream as MVN's Network Streamer would.
+/// Send a take, a walker or a live stream as MVN's Network Streamer would, or as Motive.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -50,7 +54,13 @@ Examples:
   posewire stream take.mvnx --to mxtp://192.168.1.20 --loop
   posewire stream take.mvnx --to mxtp+tcp://robot --types all
   posewire stream \"synthetic:walk?people=3\" --to \"mxtp://239.255.42.99?interface=eth0\"
-  posewire stream mxtp://0.0.0.0 --to mxtp://10.0.0.5 --to mxtp+tcp://10.0.0.6   pass on a live stream")]
+  posewire stream mxtp://0.0.0.0 --to mxtp://10.0.0.5 --to mxtp+tcp://10.0.0.6   pass on a live stream
+  posewire stream take.mvnx --to natnet://0.0.0.0            be Motive to NatNet clients
+  posewire stream take.mvnx --to \"natnet://0.0.0.0?mode=multicast&interface=eth0\"
+  posewire stream natnet://10.0.0.7 --to mxtp://10.0.0.5     Motive's skeletons as MVN's characters
+
+A take begins when somebody has connected, unless there is a target to which nobody has to connect.
+--types, --character, --revision and --split are for MXTP targets.")]
 pub(crate) struct Stream {
     /// What to send: a take, synthetic:walk, or a live stream to pass on.
     pub(crate) source: String,
@@ -59,18 +69,18 @@ pub(crate) struct Stream {
     #[arg(long, value_name = "URL", default_value = "mxtp://127.0.0.1:9763")]
     pub(crate) to: Vec<String>,
 
-    /// Datagram types, by number and with commas, or `all`.
+    /// Datagram types for MXTP targets, by number and with commas, or `all`.
     ///
     /// 01 Euler, 02 quaternion, 03 points, 05 Unity, 12 meta, 13 scale, 20 joint angles, 21 linear and 22 angular
     /// kinematics, 23 trackers, 24 centre of mass, 25 timecode. What a take lacks is computed where that is possible;
     /// a centre of mass is then an estimate.
-    #[arg(long, value_name = "TYPES", default_value = "02,12,13,20,24,25")]
+    #[arg(long, value_name = "TYPES", default_value = Self::TYPES)]
     pub(crate) types: String,
 
     #[command(flatten)]
     pub(crate) playback: Playback,
 
-    /// The number of the first character, from 0; MVN shows it plus one.
+    /// The number of the first MXTP character, from 0; MVN shows it plus one.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) character: u8,
 
@@ -78,17 +88,26 @@ pub(crate) struct Stream {
     #[arg(long, value_name = "NAME")]
     pub(crate) name: Option<String>,
 
-    /// The revision of the header: N is MVN 2019 and later, J what was before.
+    /// The revision of the MXTP header: N is MVN 2019 and later, J what was before.
     #[arg(long, value_enum, ignore_case = true, default_value = "n")]
     pub(crate) revision: Revision,
 
-    /// Split pose data into datagrams of at most so many bytes. MVN does not, and some receivers cannot take it.
+    /// Split MXTP pose data into datagrams of at most so many bytes. MVN does not, and some receivers cannot take it.
     #[arg(long, value_name = "BYTES", value_parser = clap::value_parser!(u32).range(100..=65_507))]
     pub(crate) split: Option<u32>,
+
+    /// Begin at once, also when nobody has connected yet.
+    #[arg(long)]
+    pub(crate) no_wait: bool,
 
     /// Print the numbers at the end as one JSON object.
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+impl Stream {
+    /// The types that MVN sends unless told otherwise.
+    pub(crate) const TYPES: &str = "02,12,13,20,24,25";
 }
 
 /// How a file or the walker is played.
@@ -128,15 +147,19 @@ Examples:
   posewire monitor                                   whatever arrives on UDP port 9763
   posewire monitor mxtp+tcp://0.0.0.0                let MVN connect over TCP
   posewire monitor \"mxtp://239.255.42.99?interface=eth0\"
+  posewire monitor natnet://10.0.0.7                 Motive there, unicast
+  posewire monitor \"natnet://10.0.0.7?mode=multicast&interface=eth0\"
+  posewire monitor natnet://0.0.0.0                  whichever NatNet server answers
   posewire monitor --json --frames --count 240 > frames.jsonl
 
-In MVN: Options > Preferences > Network Streamer, add this machine's address with port 9763.")]
+In MVN: Options > Preferences > Network Streamer, add this machine's address with port 9763.
+In Motive: Settings > Streaming, Enable, and as Local Interface the network that you share.")]
 pub(crate) struct Monitor {
-    /// Where to listen.
+    /// Where to listen, or which NatNet server to connect to.
     #[arg(default_value = "mxtp://0.0.0.0:9763")]
     pub(crate) url: String,
 
-    /// Print JSON: one object a second for each character and datagram type.
+    /// Print JSON: one object a second for each character and datagram type, or for a server.
     #[arg(long)]
     pub(crate) json: bool,
 
@@ -434,19 +457,47 @@ mod tests {
     }
 
     fn assert_parses(line: &str) {
-        let parsed = Cli::try_parse_from(words(line));
+        let words = words(line);
+        let is_endpoint = |word: &&String| word.contains("://") || word.starts_with("synthetic:");
+        for word in words.iter().filter(is_endpoint) {
+            let endpoint = word.parse::<posewire::endpoint::Endpoint>();
+            assert!(endpoint.is_ok(), "{line}: {}", endpoint.unwrap_err());
+        }
+        let parsed = Cli::try_parse_from(words);
         assert!(parsed.is_ok(), "{line}: {}", parsed.unwrap_err());
     }
 
+    /// The lines of shell code that call the program, and such code within other lines. Two words only name a verb.
+    fn commands(page: &str) -> Vec<&str> {
+        let mut commands = Vec::new();
+        let mut in_shell = false;
+        for line in page.lines() {
+            match line.strip_prefix("```") {
+                Some(language) => in_shell = language == "sh",
+                None if in_shell => commands.push(line),
+                None => {
+                    let pieces = line.split('`').skip(1).step_by(2);
+                    commands.extend(pieces.filter(|piece| piece.split_whitespace().count() > 2));
+                }
+            }
+        }
+        commands.retain(|command| command.starts_with("posewire "));
+        commands
+    }
+
     #[test]
-    fn every_command_of_the_readme_is_one() {
-        let readme = include_str!("../../../README.md");
-        let commands = readme.lines().flat_map(|line| match line.strip_prefix("posewire ") {
-            Some(_) => vec![line],
-            None => line.split('`').filter(|text| text.starts_with("posewire ")).collect(),
-        });
-        let count = commands.inspect(|command| assert_parses(command)).count();
-        assert!(count >= 10, "only {count} were found");
+    fn every_command_of_the_documents_is_one() {
+        for (page, text, at_least) in [
+            ("README", include_str!("../../../README.md"), 10),
+            ("natnet", include_str!("../../../docs/natnet.md"), 14),
+            ("troubleshooting", include_str!("../../../docs/troubleshooting.md"), 2),
+        ] {
+            let commands = commands(text);
+            for command in &commands {
+                assert_parses(command);
+            }
+            assert!(commands.len() >= at_least, "only {commands:?} were found in {page}");
+        }
     }
 
     #[test]

@@ -1,11 +1,13 @@
 //! The JSON that verbs print: one object a line. The field names are an interface, described in docs/json.md.
 
 mod frame;
+mod server;
 mod statistics;
 mod stream;
 mod subject;
 
-pub(crate) use frame::FrameRecord;
+pub(crate) use frame::{FrameRecord, marker_name};
+pub(crate) use server::ServerRecord;
 pub(crate) use statistics::{ReceiverRecord, statistics};
 pub(crate) use stream::StreamRecord;
 pub(crate) use subject::SubjectRecord;

@@ -1,9 +1,13 @@
 //! Results as people read them.
 
+mod server;
+
+pub(crate) use server::{delivery, kind, model, unknown_latencies};
+
 use crate::plain::{cut, printable};
-use posewire::sink::Progress;
+use posewire::sink::{ClientProgress, Progress};
 use posewire::source::Preview;
-use posewire::stats::{Statistics, SubjectStatistics, TypeStatistics};
+use posewire::stats::{Statistics, StreamStatistics, SubjectStatistics};
 use std::fmt::Write;
 use std::time::Duration;
 
@@ -56,8 +60,17 @@ pub(crate) fn stream_summary(progress: &Progress, unsent: u64) -> String {
                 _ = write!(text, ", {count} {what}");
             }
         }
+        target.clients.iter().for_each(|client| client_line(&mut text, client));
     }
     text
+}
+
+fn client_line(text: &mut String, client: &ClientProgress) {
+    let ClientProgress { address, version, .. } = client;
+    _ = write!(text, "\n    {address}, NatNet {version}: {} frames", client.frames);
+    if client.dropped > 0 {
+        _ = write!(text, ", {} not sent: nobody there, or no room", client.dropped);
+    }
 }
 
 /// The table of a live stream: a line for each character and datagram type.
@@ -72,8 +85,12 @@ pub(crate) fn statistics(statistics: &Statistics) -> String {
         _ = write!(text, ", {count} {what}");
     }
     text.push('\n');
-    for subject in &statistics.subjects {
-        subject_table(&mut text, subject);
+    match &statistics.server {
+        Some(server) => text.push_str(&server::table(server, &statistics.subjects)),
+        None => statistics
+            .subjects
+            .iter()
+            .for_each(|subject| subject_table(&mut text, subject)),
     }
     text
 }
@@ -103,22 +120,22 @@ fn subject_table(text: &mut String, of_subject: &SubjectStatistics) {
     }
     text.push('\n');
     text.push_str(TABLE_HEAD);
-    for of_type in &of_subject.types {
-        type_row(text, of_type);
+    for stream in &of_subject.streams {
+        stream_row(text, stream);
     }
 }
 
-fn type_row(text: &mut String, of_type: &TypeStatistics) {
-    let counters = &of_type.counters;
+fn stream_row(text: &mut String, stream: &StreamStatistics) {
+    let counters = &stream.counters;
     let stride = counters
         .stride
         .map_or_else(|| "-".to_owned(), |stride| stride.to_string());
     _ = writeln!(
         text,
         "  {} {:<16} {:>6.1} {:>4} {:>7} {:>6} {:>4} {:>4} {:>3} {:>3} {:>6.1} {:>6.1}",
-        of_type.message_type,
-        cut(of_type.message_type.name(), 16),
-        of_type.rate_hz,
+        stream.kind,
+        cut(stream.kind.name(), 16),
+        stream.rate_hz,
         stride,
         counters.received,
         counters.missing,
@@ -126,10 +143,10 @@ fn type_row(text: &mut String, of_type: &TypeStatistics) {
         counters.late,
         counters.reset,
         counters.incomplete,
-        milliseconds(of_type.interval.p99),
-        milliseconds(of_type.interval.max),
+        milliseconds(stream.interval.p99),
+        milliseconds(stream.interval.max),
     );
-    for (quirk, count) in counters.quirks.iter() {
+    for (quirk, count) in &counters.quirks {
         _ = writeln!(text, "     {count} {}: {}", quirk.name(), quirk.meaning());
     }
 }

@@ -16,10 +16,12 @@
 //! public says which axis is mirrored, so null poses of Motive before 3.0 are not to be trusted.
 
 mod clock;
+mod describe;
 mod encode;
 mod figure;
 mod lacks;
 mod markers;
+mod points;
 mod settings;
 mod subjects;
 

@@ -19,7 +19,7 @@ use posewire_motion::Stamp;
 use crate::frame::Frame;
 use crate::model::Model;
 use crate::output::{Outputs, Socket, encode};
-use crate::{Error, Message, Output, Packet, Version};
+use crate::{Error, Message, MessageId, Output, Packet, Version};
 use clients::Clients;
 use encodings::Encodings;
 use send::frame_packet;
@@ -67,6 +67,9 @@ pub struct Server {
     models: Encodings,
     /// Frames that are still to say that the descriptions have changed.
     announcements: u32,
+    /// Whether the last frame said so, and whether the next one must not: clients heed the bit when it appears.
+    announced: bool,
+    pauses: bool,
     /// Who asked for a single frame, in which version.
     single_frames: Vec<(SocketAddr, Version)>,
     outputs: Outputs<Event>,
@@ -83,6 +86,8 @@ impl Server {
             },
             models: Encodings::new(),
             announcements: 0,
+            announced: false,
+            pauses: false,
             single_frames: Vec::new(),
             outputs: Outputs::new(),
         }
@@ -90,11 +95,12 @@ impl Server {
 
     /// Takes in one datagram of the command socket that arrived at `now`.
     pub fn handle(&mut self, now: Stamp, from: SocketAddr, bytes: &[u8]) {
-        if let Some(client) = self.clients.find_mut(from) {
-            client.heard = now;
-        }
         let packet = Packet::decode(bytes);
         let id = packet.as_ref().ok().map(|packet| packet.id);
+        if let Some(client) = self.clients.find_mut(from) {
+            client.heard = now;
+            client.has_spoken |= id != Some(MessageId::CONNECT);
+        }
         if let Err(error) = packet.and_then(|packet| self.take(now, from, &packet)) {
             self.outputs.event(Event::Malformed { from, id, error });
         }
@@ -136,7 +142,13 @@ impl Server {
         }
         self.models.clear();
         self.announcements = ANNOUNCEMENTS;
+        self.pauses = self.announced;
         Ok(())
+    }
+
+    /// Changes how many frames a second those who ask are told.
+    pub const fn set_frame_rate(&mut self, frame_rate: f32) {
+        self.options.frame_rate = frame_rate;
     }
 
     /// Sends a frame to all who get frames, each in its version; it is encoded once for every layout.
@@ -144,8 +156,7 @@ impl Server {
     /// # Errors
     /// [`Error::TooLarge`] when the frame is too large in one of the versions; the others are sent.
     pub fn send_frame(&mut self, frame: &Frame) -> Result<(), Error> {
-        let announce = self.announcements > 0;
-        self.announcements = self.announcements.saturating_sub(1);
+        let announce = self.announces();
         let mut encodings = Encodings::new();
         let mut result = Ok(());
         for (to, version) in self.destinations() {
@@ -155,6 +166,14 @@ impl Server {
             }
         }
         result
+    }
+
+    /// Whether the next frame says that the descriptions have changed.
+    fn announces(&mut self) -> bool {
+        self.announced = self.announcements > 0 && !self.pauses;
+        self.announcements -= u32::from(self.announced);
+        self.pauses = false;
+        self.announced
     }
 
     /// Sends a line for the log to every client (unicast).

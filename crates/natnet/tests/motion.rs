@@ -1,9 +1,11 @@
 //! Canonical motion to NatNet packets and back, through bytes of several versions.
 
+use posewire_motion::standard::body_points;
 use posewire_motion::{DQuat, DVec3, Frame, Marker, Segment, SegmentKind, Skeleton, Subject, Up};
 use posewire_natnet::frame::{
     Asset, BodyParams, Frame as WireFrame, FrameParams, LabeledMarker, MarkerParams, RigidBody,
 };
+use posewire_natnet::model::Description;
 use posewire_natnet::motion::{Coordinates, Encoder, Entity, OTHER_MARKERS, Settings, Subjects};
 use posewire_natnet::{Message, Version};
 use proptest::prelude::*;
@@ -160,6 +162,76 @@ fn points_go_out_as_markers_where_a_frame_has_none() {
 }
 
 #[test]
+fn points_are_a_marker_set_that_the_model_names() {
+    let mut sent = turning("Ada", 0);
+    let mut encoder = Encoder::new(Settings::default());
+    let wire = encoder.frame([&sent]);
+    let Description::MarkerSet(described) = &encoder.model().descriptions[0] else {
+        panic!("not a marker set");
+    };
+    assert_eq!(
+        (described.name.to_string(), described.markers.len()),
+        ("Ada".to_owned(), 127)
+    );
+    assert_eq!(described.markers[12], "pSacrum");
+    let [set] = &wire.marker_sets[..] else {
+        panic!("{} marker sets", wire.marker_sets.len());
+    };
+    assert_eq!((&set.name, set.markers.len()), (&described.name, 127));
+    let labeled = wire.labeled_markers.iter().map(|marker| marker.position);
+    assert!(labeled.eq(set.markers.iter().copied()));
+
+    sent.markers = vec![Marker {
+        id: 256 + 13,
+        position: Some(DVec3::new(0.5, 0.25, 1.0)),
+    }];
+    let wire = encoder.frame([&sent]);
+    assert_eq!(
+        (wire.labeled_markers.len(), wire.marker_sets[0].markers[12]),
+        (1, [0.25, 1.0, 0.5])
+    );
+}
+
+#[test]
+fn a_body_of_its_own_brings_its_markers_to_old_clients() {
+    let mut segment = Segment::new("Wand", SegmentKind::Prop);
+    segment.points = body_points(22);
+    let points = segment.points.len();
+    let skeleton = Skeleton {
+        segments: vec![segment],
+        ..Skeleton::default()
+    };
+    let mut wand = Frame::new(Arc::new(Subject::new("Wand", skeleton)));
+    (wand.position, wand.orientation) = (vec![Some(DVec3::Z)], vec![Some(DQuat::IDENTITY)]);
+    wand.markers = vec![Marker {
+        id: 2,
+        position: Some(DVec3::new(0.5, 0.25, 1.0)),
+    }];
+    let wire = Encoder::new(Settings::default()).frame([&wand]);
+    let markers = &wire.rigid_bodies[0].markers;
+    assert_eq!((markers.len(), wire.marker_sets[0].markers.len()), (points, points));
+    assert_eq!((markers[1].position, markers[1].id), ([0.25, 1.0, 0.5], Some(258)));
+}
+
+#[test]
+fn a_crowd_is_sent_without_points_so_that_it_fits() {
+    let people: Vec<_> = (0..40).map(|id| turning("Ada", id)).collect();
+    let mut encoder = Encoder::new(Settings::default());
+    assert_eq!(encoder.frame(&people[..10]).marker_sets.len(), 10);
+    let wire = encoder.frame(&people);
+    assert_eq!(
+        (wire.skeletons.len(), wire.marker_sets.len(), wire.labeled_markers.len()),
+        (40, 0, 0)
+    );
+    assert_eq!(encoder.model().descriptions.len(), 40);
+    for version in Version::LAYOUTS {
+        let (mut frame, mut model) = (Vec::new(), Vec::new());
+        Message::Frame(wire.clone().into()).encode(version, &mut frame).unwrap();
+        Message::Model(encoder.model()).encode(version, &mut model).unwrap();
+    }
+}
+
+#[test]
 fn what_is_not_tracked_comes_back_as_none() {
     let mut sent = turning("Ada", 0);
     sent.position[5] = None;
@@ -223,7 +295,22 @@ fn a_frame_says_once_that_the_model_has_changed() {
     assert_eq!(params(&mut encoder, &ada), Some(FrameParams::default()));
     Arc::make_mut(&mut ada.subject).skeleton.segments[0].origin = Some(DVec3::Z);
     assert_eq!(params(&mut encoder, &ada), Some(FrameParams::MODEL_CHANGED));
-    assert_eq!(encoder.model().descriptions.len(), 1);
+    let names: Vec<_> = encoder.model().descriptions.iter().map(Description::kind).collect();
+    assert_eq!(names, [0, 2], "her points and her bones");
+}
+
+#[test]
+fn a_subject_that_is_renamed_keeps_its_id_and_leaves_nothing_behind() {
+    let mut encoder = Encoder::new(Settings::default());
+    let (before, after) = (turning("Character 1", 0), turning("Ada", 0));
+    encoder.frame([&before, &turning("Bea", 1)]);
+    assert!(encoder.rename(&before.subject, &after.subject));
+    let wire = encoder.frame([&after]);
+    assert_eq!((wire.skeletons[0].id, wire.params), (1, Some(FrameParams::default())));
+    let model = encoder.model();
+    let names: Vec<_> = model.descriptions.iter().filter_map(Description::name).collect();
+    assert_eq!(names, ["Ada", "Bea", "Ada", "Bea"]);
+    assert!(!encoder.rename(&before.subject, &after.subject));
 }
 
 #[test]

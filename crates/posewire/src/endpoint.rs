@@ -3,6 +3,9 @@
 //! ```text
 //! mxtp://HOST[:9763][?interface=NAME-or-ADDR&ttl=N]                MXTP over UDP
 //! mxtp+tcp://HOST[:9763][?mode=listen|connect]                     MXTP over TCP
+//! natnet://HOST[:1510][?mode=unicast|multicast&version=M.m         NatNet: the server's host
+//!     &data-port=1511&group=239.255.42.99&interface=NAME-or-ADDR
+//!     &up=y|z&skeleton=global|local&copy=false]
 //! synthetic:walk[?people=1&rate=240&props=0&fingers=false]         the built-in walker
 //! PATH                                                             .mvnx, .mvnx.gz
 //! ```
@@ -12,6 +15,7 @@
 
 mod address;
 mod file;
+mod natnet;
 mod url;
 mod walk;
 
@@ -23,12 +27,13 @@ use crate::{Error, Result};
 
 pub use address::{DEFAULT_PORT, Host, Interface, TcpAddress, TcpMode, UdpAddress};
 pub use file::FileFormat;
+pub use natnet::NatNetAddress;
 pub use walk::Walk;
 
 /// A place that motion comes from or goes to.
 ///
-/// `Display` gives the canonical text, with every default spelled out; parsing that text gives an
-/// equal endpoint.
+/// `Display` gives the canonical text, with the defaults that matter spelled out; parsing that text
+/// gives an equal endpoint.
 ///
 /// ```
 /// use posewire::endpoint::{Endpoint, FileFormat};
@@ -44,6 +49,8 @@ pub enum Endpoint {
     MxtpUdp(UdpAddress),
     /// MXTP as a byte stream over TCP.
     MxtpTcp(TcpAddress),
+    /// A NatNet server: the one to connect to as a source, to be as a sink.
+    NatNet(NatNetAddress),
     /// The built-in procedural walker. Only a source.
     Synthetic(Walk),
     /// A file, its format told by its name.
@@ -78,6 +85,7 @@ impl fmt::Display for Endpoint {
         match self {
             Self::MxtpUdp(address) => address.fmt(f),
             Self::MxtpTcp(address) => address.fmt(f),
+            Self::NatNet(address) => address.fmt(f),
             Self::Synthetic(walk) => walk.fmt(f),
             Self::File { path, .. } => path.display().fmt(f),
         }
@@ -104,6 +112,7 @@ fn parse_url(text: &str, scheme: &str, body: &str) -> Result<Endpoint> {
     match scheme {
         "mxtp" => UdpAddress::parse(text, body).map(Endpoint::MxtpUdp),
         "mxtp+tcp" => TcpAddress::parse(text, body).map(Endpoint::MxtpTcp),
+        "natnet" => NatNetAddress::parse(text, body).map(Endpoint::NatNet),
         "synthetic" => Walk::parse(text, body).map(Endpoint::Synthetic),
         _ => Err(Error::UnknownScheme {
             url: text.into(),
@@ -113,11 +122,15 @@ fn parse_url(text: &str, scheme: &str, body: &str) -> Result<Endpoint> {
     }
 }
 
-const KNOWN: &[&str] = &["mxtp", "mxtp+tcp", "synthetic"];
-const PLANNED: &[(&str, &str)] = &[("natnet", "NatNet"), ("xtlp", "XTLP")];
+const KNOWN: &[&str] = &["mxtp", "mxtp+tcp", "natnet", "synthetic"];
+const PLANNED: &[(&str, &str)] = &[("xtlp", "XTLP")];
 
 #[cfg(test)]
 mod tests {
+    use posewire_motion::Up;
+    use posewire_natnet::Version;
+    use posewire_natnet::client::Mode;
+    use posewire_natnet::motion::Coordinates;
     use proptest::prelude::*;
 
     use super::*;
@@ -143,6 +156,17 @@ mod tests {
             (
                 "mxtp+tcp://0.0.0.0:7000?mode=listen",
                 "mxtp+tcp://0.0.0.0:7000?mode=listen",
+            ),
+            ("natnet://motive-pc", "natnet://motive-pc:1510?mode=unicast"),
+            (
+                "natnet://10.0.0.5:1600?copy=true&skeleton=local&up=z&interface=eth0&group=239.1.1.1&data-port=0\
+                 &version=3.1&mode=multicast",
+                "natnet://10.0.0.5:1600?mode=multicast&version=3.1&data-port=0&group=239.1.1.1&interface=eth0&up=z\
+                 &skeleton=local&copy=true",
+            ),
+            (
+                "natnet://[::1]?data-port=1511&group=239.255.42.99&up=y&skeleton=global&copy=false",
+                "natnet://[::1]:1510?mode=unicast",
             ),
             (
                 "synthetic:walk",
@@ -204,9 +228,31 @@ mod tests {
             ),
             (
                 "http://h",
-                "http://h: unknown scheme \"http\", expected mxtp, mxtp+tcp or synthetic",
+                "http://h: unknown scheme \"http\", expected mxtp, mxtp+tcp, natnet or synthetic",
             ),
-            ("natnet://h", "natnet://h: NatNet is not supported yet"),
+            ("xtlp://h", "xtlp://h: XTLP is not supported yet"),
+            (
+                "natnet://239.255.42.99",
+                "natnet://239.255.42.99: expected the address of one host as the server, found \"239.255.42.99\"",
+            ),
+            (
+                "natnet://h?group=10.0.0.1",
+                "natnet://h?group=10.0.0.1: expected an IPv4 group from 224.0.0.0, or 255.255.255.255 as the group, \
+                 found \"10.0.0.1\"",
+            ),
+            (
+                "natnet://h?version=4.6",
+                "natnet://h?version=4.6: expected a version from 1.4 to 4.5 as the version, found \"4.6\"",
+            ),
+            (
+                "natnet://h?up=x",
+                "natnet://h?up=x: expected y or z as the up, found \"x\"",
+            ),
+            (
+                "natnet://h?ttl=1",
+                "natnet://h?ttl=1: unknown option \"ttl\", expected mode, version, data-port, group, interface, up, \
+                 skeleton or copy",
+            ),
             (
                 "take.mvn",
                 "take.mvn: the .mvn format is proprietary: export MVNX from MVN",
@@ -237,6 +283,34 @@ mod tests {
             any::<[u8; 16]>().prop_map(|octets| Interface::Address(octets.into())),
             "[a-z]{1,6}[0-9]{1,3}".prop_map(Interface::Name),
         ]
+    }
+
+    fn natnet() -> impl Strategy<Value = Endpoint> {
+        let version = prop::sample::select(&Version::LAYOUTS[..]);
+        let group = (224u8..240, any::<[u8; 3]>()).prop_map(|(first, [b, c, d])| [first, b, c, d].into());
+        let place = (
+            host().prop_filter(
+                "a group",
+                |host| !matches!(host, Host::Address(ip) if ip.is_multicast()),
+            ),
+            any::<[u16; 2]>(),
+            proptest::option::of(interface()),
+        );
+        let settings = (proptest::option::of(version), group, any::<[bool; 4]>());
+        (place, settings).prop_map(|((host, [port, data_port], interface), (version, group, bits))| {
+            let [multicast, z, local, copy] = bits;
+            Endpoint::NatNet(NatNetAddress {
+                mode: if multicast { Mode::Multicast } else { Mode::Unicast },
+                version,
+                data_port,
+                group,
+                interface,
+                up: if z { Up::Z } else { Up::Y },
+                skeleton: if local { Coordinates::Local } else { Coordinates::Global },
+                copy,
+                ..NatNetAddress::new(host, port)
+            })
+        })
     }
 
     fn endpoint() -> impl Strategy<Value = Endpoint> {
@@ -270,7 +344,7 @@ mod tests {
             path: format!("{stem}.mvnx").into(),
             format: FileFormat::Mvnx,
         });
-        prop_oneof![udp, tcp, walk, file]
+        prop_oneof![udp, tcp, natnet(), walk, file]
     }
 
     proptest! {
@@ -280,7 +354,7 @@ mod tests {
         }
 
         #[test]
-        fn any_url_parses_or_says_why(text in "(mxtp|mxtp\\+tcp|synthetic)(://|:walk|:)[\\[\\]a-z0-9.:?&=/%#@-]{0,40}") {
+        fn any_url_parses_or_says_why(text in "(mxtp|mxtp\\+tcp|natnet|synthetic)(://|:walk|:)[\\[\\]a-z0-9.:?&=/%#@-]{0,40}") {
             if let Ok(endpoint) = parse(&text) {
                 prop_assert_eq!(parse(&endpoint.to_string()), Ok(endpoint));
             }

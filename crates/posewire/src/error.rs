@@ -76,6 +76,12 @@ pub enum Error {
         /// What the system's resolver says.
         reason: String,
     },
+    /// Several servers where one was to be found.
+    #[error("expected one NatNet server, found {}: {}", found.len(), found.join(", "))]
+    SeveralServers {
+        /// Each of them, as `Motive at 10.0.0.5:1510`.
+        found: Vec<String>,
+    },
     /// A network interface that is not there, or lacks an address of the needed kind.
     #[error("network interface {name:?} {problem}")]
     Interface {
@@ -143,10 +149,20 @@ pub enum Error {
         found: String,
     },
     /// An endpoint that motion cannot be sent to.
-    #[error("{endpoint}: motion cannot be sent there, expected mxtp://HOST:PORT or mxtp+tcp://HOST:PORT")]
+    #[error(
+        "{endpoint}: motion cannot be sent there, expected mxtp://HOST:PORT, mxtp+tcp://HOST:PORT or natnet://HOST"
+    )]
     NotATarget {
         /// The endpoint.
         endpoint: String,
+    },
+    /// More subjects than a NatNet server can describe.
+    #[error("the descriptions of {subjects} subjects do not fit into one NatNet datagram: {error}")]
+    Descriptions {
+        /// How many subjects there are.
+        subjects: usize,
+        /// How large their descriptions are.
+        error: posewire_natnet::Error,
     },
     /// More subjects than character numbers.
     #[error("expected a character number from 0 to 255, found {found}")]
@@ -255,12 +271,17 @@ impl Error {
             Self::UnknownOption { known: [], .. } => Some("remove the part after the ?".into()),
             Self::UnknownOption { known, .. } => Some(format!("use {}", listed(known))),
             Self::UnknownScheme { known, .. } => Some(format!("use {}, or the path of a file", listed(known))),
-            Self::NotSupportedYet { .. } => Some("use mxtp://, mxtp+tcp://, synthetic:walk or an .mvnx file".into()),
+            Self::NotSupportedYet { .. } => {
+                Some("use mxtp://, mxtp+tcp://, natnet://, synthetic:walk or an .mvnx file".into())
+            }
             Self::Proprietary { .. } => Some("open the take in MVN, export it as MVNX and use the .mvnx file".into()),
             Self::UnknownFormat { path, .. } => Some(path_help(path)),
             Self::Resolve { host, .. } => Some(format!("check the spelling of {host:?}, or use the numeric address")),
+            Self::SeveralServers { .. } => Some("name one of them, as in natnet://HOST:1510".into()),
             Self::Interface { available, .. } => Some(format!("this machine has: {}", available.join(", "))),
-            Self::Socket { address, kind, .. } => socket_help(address, *kind),
+            Self::Socket {
+                action, address, kind, ..
+            } => socket_help(action, address, *kind),
             Self::Stalled { peer, .. } => Some(format!("check that the program at {peer} reads its connection")),
             Self::Read { kind, .. } => read_help(*kind),
             Self::Take { error, .. } => Some(take_help(error).into()),
@@ -269,6 +290,7 @@ impl Error {
             Self::NotATarget { .. } => {
                 Some("give a network address, as in --to mxtp://127.0.0.1:9763; posewire convert writes files".into())
             }
+            Self::Descriptions { .. } => Some("stream fewer people to NatNet".into()),
             Self::Character { .. } => Some("start at a lower --character, or stream fewer people".into()),
             Self::Write { kind, .. } => Some(write_help(*kind).into()),
             Self::Format { .. } => Some("name one of these, as in --format csv".into()),
@@ -336,6 +358,11 @@ impl Error {
         )
     }
 
+    /// What a NatNet server's command port is bound for.
+    pub(crate) const SERVE_COMMANDS: &str = "serve NatNet commands on";
+    /// What a NatNet server's data port is bound for.
+    pub(crate) const SERVE_FRAMES: &str = "send NatNet frames from";
+
     /// The refusal of `action` ("listen on", "send to" ...) on `address` by the system.
     pub(crate) fn socket(action: &'static str, address: String, error: &io::Error) -> Self {
         Self::Socket {
@@ -362,6 +389,7 @@ fn formats() -> String {
 fn url_help(part: &str) -> String {
     match part {
         "host" | "port" | "address" => "write HOST, HOST:PORT or [IPV6]:PORT, as in mxtp://127.0.0.1:9763".into(),
+        "server" => "name the server, with the group behind it: natnet://SERVER?mode=multicast&group=GROUP".into(),
         "interface" => "name it as the system does, as in interface=eth0, or by address".into(),
         "generator" => "write synthetic:walk, as in synthetic:walk?people=2&rate=240".into(),
         "scheme" => "write mxtp://HOST:PORT, mxtp+tcp://HOST:PORT or synthetic:walk".into(),
@@ -415,9 +443,17 @@ fn read_help(kind: io::ErrorKind) -> Option<String> {
     }
 }
 
-fn socket_help(address: &str, kind: io::ErrorKind) -> Option<String> {
+fn socket_help(action: &str, address: &str, kind: io::ErrorKind) -> Option<String> {
     let place = address.split_once(' ').map_or(address, |(_, place)| place);
     let text = match kind {
+        io::ErrorKind::AddrInUse if action == Error::SERVE_COMMANDS => {
+            format!(
+                "another program, such as Motive, has {place}: stop it, or choose another port as in natnet://HOST:1520"
+            )
+        }
+        io::ErrorKind::AddrInUse if action == Error::SERVE_FRAMES => {
+            format!("another program has {place}: stop it, or choose another port as in natnet://HOST?data-port=1521")
+        }
         io::ErrorKind::AddrInUse => {
             format!("another program listens on {place}: stop it or choose another port")
         }

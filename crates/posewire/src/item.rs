@@ -47,6 +47,18 @@ pub enum Notice {
         /// What failed, and where.
         error: Error,
     },
+    /// A multicast group was joined.
+    Joined {
+        /// The group and the port.
+        group: String,
+        /// The address and the interface that it was joined on, as `192.168.1.5 (eth0)`.
+        interface: String,
+    },
+    /// Something about the source that people should know, in a sentence without a full stop.
+    Remark {
+        /// The sentence.
+        text: String,
+    },
     /// A file ended before its end, and the frames up to there were used.
     Damaged {
         /// What is wrong and where.
@@ -60,6 +72,8 @@ impl fmt::Display for Notice {
             Self::Connected { peer } => write!(f, "connected to {peer}"),
             Self::Disconnected { peer, reason } => write!(f, "lost the connection to {peer}: {reason}"),
             Self::NotConnected { error } => write!(f, "{error}; trying again"),
+            Self::Joined { group, interface } => write!(f, "joined {group} on {interface}"),
+            Self::Remark { text } => f.write_str(text),
             Self::Damaged { problem } => write!(f, "the file is damaged: {problem}"),
         }
     }

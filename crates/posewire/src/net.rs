@@ -21,13 +21,18 @@
 mod backoff;
 mod interface;
 mod resolve;
+mod route;
 mod tcp;
 mod udp_receive;
 mod udp_send;
+mod udp_serve;
 
 pub use backoff::Backoff;
 pub use resolve::resolve;
+pub(crate) use resolve::resolve_first;
+pub(crate) use route::{LocalAddress, broadcast_addresses, is_own};
 pub(crate) use tcp::connect_to;
 pub use tcp::{TcpConnection, TcpIncoming, connect, listen};
 pub use udp_receive::{Received, UdpReceiver};
 pub use udp_send::{SendCounts, UdpSender};
+pub(crate) use udp_serve::{Sent, ServedPort};

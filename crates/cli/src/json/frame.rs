@@ -26,7 +26,7 @@ pub(crate) struct FrameRecord<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     center_of_mass: Option<Center>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    markers: Vec<Marker>,
+    markers: Vec<Marker<'a>>,
 }
 
 #[derive(Serialize)]
@@ -80,8 +80,10 @@ struct Center {
 }
 
 #[derive(Serialize)]
-struct Marker {
+struct Marker<'a> {
     id: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    name: Option<&'a str>,
     position: Option<Vector>,
 }
 
@@ -107,7 +109,7 @@ impl<'a> FrameRecord<'a> {
             ),
             sensors: sensors(frame, skeleton),
             center_of_mass: frame.center_of_mass.as_ref().map(center),
-            markers: frame.markers.iter().map(marker).collect(),
+            markers: frame.markers.iter().map(|one| marker(one, skeleton)).collect(),
         }
     }
 }
@@ -162,13 +164,25 @@ fn center(center: &CenterOfMass) -> Center {
     }
 }
 
-fn marker(marker: &posewire_motion::Marker) -> Marker {
+fn marker<'a>(marker: &posewire_motion::Marker, skeleton: &'a Skeleton) -> Marker<'a> {
     Marker {
         id: marker.id,
+        name: marker_name(marker.id, skeleton),
         position: marker.position.map(Vector),
     }
 }
 
 fn at<T: Copy>(section: &[Option<T>], place: usize) -> Option<T> {
     section.get(place).copied().flatten()
+}
+
+/// What the skeleton calls the marker: a point on one of its segments, or of its only segment.
+pub(crate) fn marker_name(id: u32, skeleton: &Skeleton) -> Option<&str> {
+    let (segment, point) = match (id / 256, id % 256) {
+        (0, point) if skeleton.segments.len() == 1 => (0, point),
+        (0, _) => return None,
+        (segment, point) => (segment as usize - 1, point),
+    };
+    let point = skeleton.segments.get(segment)?.point(u16::try_from(point).ok()?)?;
+    Some(point.name.as_str()).filter(|name| !name.is_empty())
 }

@@ -1,10 +1,11 @@
 //! How a stream is doing that we receive.
 
 use super::{Spread, rounded};
-use posewire::stats::{Statistics, TypeStatistics};
+use posewire::stats::{Statistics, StreamStatistics};
 use posewire_motion::Subject;
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// How a receiver is doing: what belongs to no character.
 #[derive(Serialize)]
@@ -42,7 +43,8 @@ impl<'a> ReceiverRecord<'a> {
 #[derive(Serialize)]
 pub(crate) struct StatisticsRecord<'a> {
     kind: &'static str,
-    character: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    character: Option<u32>,
     name: &'a str,
     r#type: String,
     rate_hz: f64,
@@ -62,25 +64,22 @@ pub(crate) struct StatisticsRecord<'a> {
     ended: bool,
 }
 
-/// One record for each character and datagram type.
+/// One record for each character and datagram type, and one for the frames of a server.
 pub(crate) fn statistics(all: &Statistics) -> impl Iterator<Item = StatisticsRecord<'_>> {
-    let subjects = all.subjects.iter();
-    subjects.flat_map(move |of| {
-        of.types
-            .iter()
-            .map(move |of_type| StatisticsRecord::new(all, &of.subject, of_type))
-    })
+    let streams = all.streams();
+    streams.map(|(subject, stream)| StatisticsRecord::new(all, subject, stream))
 }
 
 impl<'a> StatisticsRecord<'a> {
-    fn new(all: &Statistics, subject: &'a Subject, of_type: &TypeStatistics) -> Self {
-        let counters = &of_type.counters;
+    fn new(all: &'a Statistics, subject: Option<&'a Arc<Subject>>, stream: &StreamStatistics) -> Self {
+        let counters = &stream.counters;
+        let server = all.server.as_ref().map_or("", |server| &server.name);
         Self {
             kind: "statistics",
-            character: subject.id,
-            name: &subject.name,
-            r#type: of_type.message_type.to_string(),
-            rate_hz: rounded(of_type.rate_hz),
+            character: subject.map(|subject| subject.id),
+            name: subject.map_or(server, |subject| &subject.name),
+            r#type: stream.kind.to_string(),
+            rate_hz: rounded(stream.rate_hz),
             stride: counters.stride,
             received: counters.received,
             missing: counters.missing,
@@ -94,9 +93,9 @@ impl<'a> StatisticsRecord<'a> {
             quirks: counters
                 .quirks
                 .iter()
-                .map(|(quirk, count)| (quirk.name(), count))
+                .map(|(quirk, count)| (quirk.name(), *count))
                 .collect(),
-            interval_ms: of_type.interval.into(),
+            interval_ms: stream.interval.into(),
             elapsed_s: rounded(all.elapsed.as_secs_f64()),
             ended: all.ended,
         }

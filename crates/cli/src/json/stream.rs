@@ -1,7 +1,7 @@
 //! How a stream went that we sent.
 
 use super::Spread;
-use posewire::sink::Progress;
+use posewire::sink::{ClientProgress, ClientState, LeftOut, Progress, TargetProgress};
 use serde::Serialize;
 
 /// How a stream went that we sent.
@@ -13,6 +13,13 @@ pub(crate) struct StreamRecord<'a> {
     unsent: u64,
     lateness_ms: Spread,
     targets: Vec<TargetRecord<'a>>,
+    left_out: Vec<LeftOutRecord<'a>>,
+}
+
+#[derive(Serialize)]
+struct LeftOutRecord<'a> {
+    what: &'a str,
+    why: &'a str,
 }
 
 #[derive(Serialize)]
@@ -23,26 +30,70 @@ struct TargetRecord<'a> {
     congested: u64,
     failed: u64,
     dropped: u64,
+    clients: Vec<ClientRecord<'a>>,
+}
+
+#[derive(Serialize)]
+struct ClientRecord<'a> {
+    address: String,
+    name: &'a str,
+    version: String,
+    state: &'static str,
+    frames: u64,
+    dropped: u64,
 }
 
 impl<'a> StreamRecord<'a> {
     /// `unsent` is what of a live source was lost on this machine before it could be sent.
     pub(crate) fn new(progress: &'a Progress, unsent: u64) -> Self {
-        let targets = progress.targets.iter().map(|target| TargetRecord {
-            endpoint: &target.endpoint,
-            peers: target.peers,
-            datagrams: target.datagrams,
-            congested: target.congested,
-            failed: target.failed,
-            dropped: target.dropped,
-        });
         Self {
             kind: "stream",
             frames: progress.frames,
             lost: progress.lost() + unsent,
             unsent,
             lateness_ms: progress.lateness.into(),
-            targets: targets.collect(),
+            targets: progress.targets.iter().map(TargetRecord::of).collect(),
+            left_out: progress.left_out.iter().map(LeftOutRecord::of).collect(),
+        }
+    }
+}
+
+impl<'a> TargetRecord<'a> {
+    fn of(target: &'a TargetProgress) -> Self {
+        Self {
+            endpoint: &target.endpoint,
+            peers: target.peers,
+            datagrams: target.datagrams,
+            congested: target.congested,
+            failed: target.failed,
+            dropped: target.dropped,
+            clients: target.clients.iter().map(ClientRecord::of).collect(),
+        }
+    }
+}
+
+impl<'a> LeftOutRecord<'a> {
+    fn of(entry: &'a LeftOut) -> Self {
+        Self {
+            what: &entry.what,
+            why: entry.why,
+        }
+    }
+}
+
+impl<'a> ClientRecord<'a> {
+    fn of(client: &'a ClientProgress) -> Self {
+        Self {
+            address: client.address.to_string(),
+            name: &client.name,
+            version: client.version.to_string(),
+            state: match client.state {
+                ClientState::Connected => "connected",
+                ClientState::Left => "left",
+                ClientState::Silent => "silent",
+            },
+            frames: client.frames,
+            dropped: client.dropped,
         }
     }
 }

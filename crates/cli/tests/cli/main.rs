@@ -5,6 +5,9 @@ mod demo;
 mod explain;
 mod inspect;
 mod monitor;
+mod motive;
+mod natnet;
+mod natnet_monitor;
 #[cfg(unix)]
 mod page;
 mod program;

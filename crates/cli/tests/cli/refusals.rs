@@ -67,6 +67,31 @@ fn wrong_arguments_end_with_2() {
         ),
         (&["stream", walk, "--types", "02,99"], "\"02,99\"", "01,02,03"),
         (
+            &["stream", "natnet://127.0.0.1:1", "--to", "natnet://127.0.0.1:1"],
+            "would be sent to itself",
+            "--to",
+        ),
+        (
+            &["stream", walk, "--to", "natnet://127.0.0.1?ttl=2"],
+            "unknown option \"ttl\"",
+            "data-port",
+        ),
+        (
+            &["stream", walk, "--to", "natnet://127.0.0.1?version=9.0"],
+            "\"9.0\"",
+            "version",
+        ),
+        (
+            &["stream", walk, "--to", "natnet://127.0.0.1:0", "--split", "1400"],
+            "--split is for MXTP targets",
+            "leave --split out",
+        ),
+        (
+            &["stream", walk, "--to", "natnet://127.0.0.1:0", "--types", "all"],
+            "--types is for MXTP targets",
+            "leave --types out",
+        ),
+        (
             &["stream", walk, "--to", "other.mvnx"],
             "motion cannot be sent there",
             "--to mxtp://",
@@ -121,6 +146,19 @@ fn a_port_in_use_is_named() {
             &address.to_string(),
             "another program listens",
         );
+    }
+}
+
+#[test]
+fn a_natnet_port_in_use_is_named_with_the_way_to_another() {
+    let taken = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let port = taken.local_addr().unwrap().port();
+    for (url, help) in [
+        (format!("natnet://127.0.0.1:{port}?data-port=0"), "natnet://HOST:1520"),
+        (format!("natnet://127.0.0.1:0?data-port={port}"), "data-port=1521"),
+    ] {
+        let arguments = ["stream", "synthetic:walk", "--to", &url];
+        assert_refused(Path::new("."), &arguments, 1, &port.to_string(), help);
     }
 }
 

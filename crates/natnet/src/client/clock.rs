@@ -23,6 +23,8 @@ pub struct ClockEstimate {
     pub at: Stamp,
     /// How much earlier or later than `at` that can have been.
     pub uncertainty: Duration,
+    /// The time from the question for it to the answer.
+    pub round_trip: Duration,
 }
 
 impl ClockEstimate {
@@ -116,12 +118,14 @@ impl ServerClock {
 
 impl Echo {
     fn estimate(&self, now: Stamp, frequency: u64) -> ClockEstimate {
-        let half = self.received.since(self.sent) / 2;
+        let round_trip = self.received.since(self.sent);
+        let half = round_trip / 2;
         ClockEstimate {
             frequency,
             ticks: self.ticks,
             at: self.sent.after(half),
             uncertainty: half.saturating_add(now.since(self.received) / DRIFT_DIVISOR),
+            round_trip,
         }
     }
 }
@@ -239,6 +243,7 @@ mod tests {
             ticks: u64::MAX,
             at: Stamp(i64::MIN),
             uncertainty: Duration::ZERO,
+            round_trip: Duration::ZERO,
         };
         assert_eq!(estimate.stamp_of(0), Stamp(i64::MIN));
         assert_eq!(estimate.stamp_of(u64::MAX), Stamp(i64::MIN));

@@ -9,6 +9,7 @@ use crate::model::{Description, Model, RigidBodyDescription};
 use posewire_motion::{Frame as MotionFrame, Skeleton, Subject};
 use std::collections::HashMap;
 use std::fmt;
+use std::sync::Arc;
 
 /// What a subject is on the wire, with its streaming ID.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -93,6 +94,21 @@ impl Subjects {
     /// bones that their skeleton's description does not have. When it grows, the model should be asked for again.
     pub fn left_out(&self) -> u64 {
         self.left_out
+    }
+
+    /// The subjects that there are now, described or found in frames, in no particular order.
+    pub fn subjects(&self) -> impl Iterator<Item = &Arc<Subject>> {
+        self.figures.values().map(|figure| &figure.subject)
+    }
+
+    /// Sets the frames a second that subjects carry. Subjects that had another one become new.
+    pub fn set_rate(&mut self, rate: Option<f64>) {
+        self.settings.rate = rate;
+        for figure in self.figures.values_mut() {
+            if figure.subject.rate != rate {
+                Arc::make_mut(&mut figure.subject).rate = rate;
+            }
+        }
     }
 
     /// Takes over the server's descriptions, in place of all that it sent before.

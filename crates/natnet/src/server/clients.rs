@@ -18,6 +18,8 @@ pub struct ConnectedClient {
     pub heard: Stamp,
     /// Whether it has ever sent a keep-alive. Some clients never do.
     pub keeps_alive: bool,
+    /// Whether it has sent anything but connects.
+    pub has_spoken: bool,
 }
 
 /// The clients, in the order in which they have connected.

@@ -23,9 +23,10 @@ pub struct ServerOptions {
     pub clock_frequency: u64,
     /// Silence after which a client is dropped, `None` for never; 10 s unless set.
     pub silence_limit: Option<Duration>,
-    /// Whether a client's host gets its frames at the data port as well: some clients listen only there. These
-    /// never keep alive, so that with this option silence does not drop a client that has never sent a keep-alive
-    /// until its host brings another one.
+    /// Whether a client's host gets its frames at the data port as well: some clients listen only there. The
+    /// endpoint that a client connected from then gets frames from the next packet on that it sends. Those that
+    /// listen at the data port never keep alive, so that with this option silence does not drop a client that has
+    /// never sent a keep-alive until its host brings another one.
     pub copy_to_data_port: bool,
     /// Frames a second, for those who ask.
     pub frame_rate: f32,

@@ -46,6 +46,7 @@ impl Server {
             version,
             heard: now,
             keeps_alive: false,
+            has_spoken: false,
         };
         match self.clients.admit(client) {
             Admission::Refused => return self.refuse(from),

@@ -3,7 +3,7 @@
 use std::net::SocketAddr;
 
 use super::encodings::Encoded;
-use super::{Delivery, Event, Server};
+use super::{ConnectedClient, Delivery, Event, Server};
 use crate::command::{ConnectionInfo, Sender, ServerInfo};
 use crate::frame::{Frame, FrameParams};
 use crate::model::Model;
@@ -16,7 +16,8 @@ impl Server {
         let mut all = std::mem::take(&mut self.single_frames);
         match self.options.delivery {
             Delivery::Unicast => {
-                all.extend(self.clients().iter().map(|client| (client.address, client.version)));
+                let clients = self.clients().iter().filter(|client| self.is_sent_to(client));
+                all.extend(clients.map(|client| (client.address, client.version)));
                 if self.options.copy_to_data_port {
                     all.extend(self.copies());
                 }
@@ -24,6 +25,13 @@ impl Server {
             Delivery::Multicast(group) => all.push(((group, self.options.data_port).into(), self.options.version)),
         }
         all
+    }
+
+    /// Where copies go out, a client that has only connected gets nothing else: one that listens at the data port takes
+    /// the first packet after its next request for the answer, and a frame must not be that.
+    const fn is_sent_to(&self, client: &ConnectedClient) -> bool {
+        let is_copied_to = self.options.copy_to_data_port && client.address.port() != self.options.data_port;
+        client.has_spoken || !is_copied_to
     }
 
     /// One copy for every host, unless a client there is at the data port already.

@@ -7,7 +7,7 @@ use posewire_motion::Stamp;
 use posewire_natnet::client::{
     Answer, Client, ClientOptions, DataSource, Discovery, Event, Found, FrameOrder, LostReason, Mode,
 };
-use posewire_natnet::command::{ConnectionInfo, Response, Sender, ServerInfo};
+use posewire_natnet::command::{ConnectionInfo, EchoResponse, Response, Sender, ServerInfo};
 use posewire_natnet::frame::Frame;
 use posewire_natnet::model::Model;
 use posewire_natnet::{Error, Message, MessageId, Output, Version};
@@ -136,6 +136,30 @@ fn a_connected_client_shows_that_it_lives_and_asks_for_the_clock() {
             .count();
     }
     assert_eq!((keep_alives, echoes), (10, 20));
+}
+
+#[test]
+fn an_echo_that_is_read_after_a_later_frame_is_as_fast_as_it_was() {
+    let mut harness = Harness::connected(ClientOptions::new(server_address(), Mode::Multicast));
+    harness.wait(Duration::from_secs(1));
+    let asked = harness.drain().1.into_iter().rev().find_map(|message| match message {
+        Message::EchoRequest(request) => Some(request.client_ticks),
+        _ => None,
+    });
+    let client_ticks = asked.unwrap();
+    let sent = Stamp(client_ticks as i64);
+    harness.now = sent.after(milliseconds(9));
+    harness.answer_from(data_address(), &boxed(1));
+    harness.now = sent.after(milliseconds(2));
+    harness.answer(&Message::EchoResponse(EchoResponse {
+        client_ticks,
+        server_ticks: 7,
+    }));
+    let estimate = harness.client.clock(sent.after(milliseconds(9))).unwrap();
+    assert_eq!(
+        (estimate.round_trip, estimate.at),
+        (milliseconds(2), sent.after(milliseconds(1)))
+    );
 }
 
 #[test]

@@ -245,11 +245,21 @@ fn a_copy_goes_to_the_data_port_of_every_host_once() {
     for address in addresses {
         connect(&mut server, address, None);
     }
-    drain(&mut server);
-    server.send_frame(&frame(1)).unwrap();
-    let to: Vec<_> = drain(&mut server).1.iter().map(|transmit| transmit.to).collect();
+    let destinations = |server: &mut Server| {
+        drain(server);
+        server.send_frame(&frame(1)).unwrap();
+        let (_, transmits) = drain(server);
+        transmits.iter().map(|transmit| transmit.to).collect::<Vec<_>>()
+    };
     let copy = ([10, 0, 0, 2], 1511).into();
-    assert_eq!(to, [addresses[0], addresses[1], addresses[2], copy]);
+    // Nothing comes between a request for the model and its answer.
+    assert_eq!(destinations(&mut server), [addresses[2], copy]);
+    server.handle(START, addresses[0], b"\x04\0\0\0");
+    server.handle(START, addresses[1], b"\x0a\0\0\0");
+    assert_eq!(
+        destinations(&mut server),
+        [addresses[0], addresses[1], addresses[2], copy]
+    );
 }
 
 #[test]

@@ -153,6 +153,19 @@ fn a_changed_model_is_asked_for_again() {
 }
 
 #[test]
+fn a_model_that_changes_while_a_change_is_announced_is_asked_for_too() {
+    let mut world = World::unicast();
+    world.run(SECOND);
+    for names in [&["wand", "drone"][..], &["stick"]] {
+        world.server.as_mut().unwrap().set_model(model(names)).unwrap();
+        world.run(milliseconds(15));
+    }
+    world.run(SECOND);
+    let last = world.events.iter().filter_map(names).next_back();
+    assert_eq!(last, Some(vec!["stick".into()]));
+}
+
+#[test]
 fn a_server_that_vanishes_is_lost_and_found_when_it_returns() {
     let mut world = World::unicast();
     world.run(SECOND);

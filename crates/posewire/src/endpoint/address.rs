@@ -73,7 +73,7 @@ impl UdpAddress {
 
     pub(super) fn parse(whole: &str, body: &str) -> Result<Self> {
         let url = Url::cut(whole, body, &["interface", "ttl"])?;
-        let (host, port) = parse_place(&url)?;
+        let (host, port) = parse_place(&url, DEFAULT_PORT)?;
         Ok(Self {
             host,
             port,
@@ -91,7 +91,7 @@ impl TcpAddress {
 
     pub(super) fn parse(whole: &str, body: &str) -> Result<Self> {
         let url = Url::cut(whole, body, &["mode"])?;
-        let (host, port) = parse_place(&url)?;
+        let (host, port) = parse_place(&url, DEFAULT_PORT)?;
         let mode = match url.option("mode") {
             None => None,
             Some("listen") => Some(TcpMode::Listen),
@@ -102,27 +102,27 @@ impl TcpAddress {
     }
 }
 
-/// `//HOST[:PORT][/]`.
-fn parse_place(url: &Url<'_>) -> Result<(Host, u16)> {
+/// `//HOST[:PORT][/]`, with the port that is meant where none is given.
+pub(super) fn parse_place(url: &Url<'_>, usual_port: u16) -> Result<(Host, u16)> {
     let Some(place) = url.place.strip_prefix("//") else {
         return Err(url.mistake("address", "// after the scheme", url.place));
     };
     let place = place.strip_suffix('/').unwrap_or(place);
     if let Some(bracketed) = place.strip_prefix('[') {
-        return parse_bracketed(url, bracketed);
+        return parse_bracketed(url, bracketed, usual_port);
     }
     let (host, port) = match place.split_once(':') {
         Some((_, rest)) if rest.contains(':') => {
             return Err(url.mistake("host", "an IPv6 address in brackets", place));
         }
         Some((host, port)) => (host, parse_port(url, port)?),
-        None => (place, DEFAULT_PORT),
+        None => (place, usual_port),
     };
     Ok((parse_host(url, host)?, port))
 }
 
 /// What follows a `[`: `ADDRESS][:PORT]`.
-fn parse_bracketed(url: &Url<'_>, text: &str) -> Result<(Host, u16)> {
+fn parse_bracketed(url: &Url<'_>, text: &str, usual_port: u16) -> Result<(Host, u16)> {
     let Some((address, rest)) = text.split_once(']') else {
         return Err(url.mistake("host", "a closing bracket", text));
     };
@@ -130,7 +130,7 @@ fn parse_bracketed(url: &Url<'_>, text: &str) -> Result<(Host, u16)> {
         return Err(url.mistake("host", "an IPv6 address in brackets", address));
     };
     let port = match (rest, rest.strip_prefix(':')) {
-        ("", _) => DEFAULT_PORT,
+        ("", _) => usual_port,
         (_, Some(port)) => parse_port(url, port)?,
         (_, None) => return Err(url.mistake("port", "a colon and a number", rest)),
     };
@@ -161,7 +161,7 @@ fn parse_host(url: &Url<'_>, text: &str) -> Result<Host> {
     Ok(Host::Name(text.into()))
 }
 
-fn parse_interface(url: &Url<'_>) -> Result<Option<Interface>> {
+pub(super) fn parse_interface(url: &Url<'_>) -> Result<Option<Interface>> {
     let Some(text) = url.option("interface") else {
         return Ok(None);
     };

@@ -14,6 +14,8 @@ pub(super) struct LocalInterface {
     pub(super) index: u32,
     /// Its addresses.
     pub(super) addresses: Vec<IpAddr>,
+    /// The broadcast addresses of its IPv4 networks.
+    pub(super) broadcasts: Vec<Ipv4Addr>,
 }
 
 impl LocalInterface {
@@ -31,6 +33,7 @@ impl LocalInterface {
                     name: address.to_string(),
                     index: 0,
                     addresses: vec![*address],
+                    broadcasts: Vec::new(),
                 }),
                 _ => Err(refusal(wanted, "does not exist here", &all)),
             },
@@ -72,23 +75,41 @@ fn refusal(wanted: &Interface, problem: &'static str, all: &[LocalInterface]) ->
 
 /// The interfaces that have an address.
 #[cfg(unix)]
-fn list() -> Vec<LocalInterface> {
+pub(super) fn list() -> Vec<LocalInterface> {
     let mut all: Vec<LocalInterface> = Vec::new();
     for entry in nix::ifaddrs::getifaddrs().into_iter().flatten() {
         let Some(address) = entry.address.as_ref().and_then(ip_of) else {
             continue;
         };
+        let broadcast = entry
+            .netmask
+            .as_ref()
+            .and_then(ip_of)
+            .and_then(|mask| broadcast_of(address, mask));
         let name = entry.interface_name;
         match all.iter_mut().find(|interface| interface.name == name) {
-            Some(interface) => interface.addresses.push(address),
+            Some(interface) => {
+                interface.addresses.push(address);
+                interface.broadcasts.extend(broadcast);
+            }
             None => all.push(LocalInterface {
                 index: nix::net::if_::if_nametoindex(name.as_str()).unwrap_or(0),
                 name,
                 addresses: vec![address],
+                broadcasts: broadcast.into_iter().collect(),
             }),
         }
     }
     all
+}
+
+/// The last address of a network; `None` for a network of one.
+#[cfg(unix)]
+fn broadcast_of(address: IpAddr, mask: IpAddr) -> Option<Ipv4Addr> {
+    let (IpAddr::V4(address), IpAddr::V4(mask)) = (address, mask) else {
+        return None;
+    };
+    (mask != Ipv4Addr::BROADCAST).then(|| address | !mask)
 }
 
 #[cfg(unix)]
@@ -99,7 +120,7 @@ fn ip_of(address: &nix::sys::socket::SockaddrStorage) -> Option<IpAddr> {
 
 /// Nothing lists them here, so an interface is chosen by its address only.
 #[cfg(not(unix))]
-fn list() -> Vec<LocalInterface> {
+pub(super) fn list() -> Vec<LocalInterface> {
     Vec::new()
 }
 

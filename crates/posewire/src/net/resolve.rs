@@ -33,7 +33,7 @@ pub fn resolve(host: &Host, port: u16) -> Result<Vec<SocketAddr>> {
 }
 
 /// The first address of a host: the one that datagrams go to.
-pub(super) fn resolve_first(host: &Host, port: u16) -> Result<SocketAddr> {
+pub(crate) fn resolve_first(host: &Host, port: u16) -> Result<SocketAddr> {
     let addresses = resolve(host, port)?;
     addresses.first().copied().ok_or_else(|| Error::Resolve {
         host: host.to_string(),

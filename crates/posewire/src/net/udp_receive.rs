@@ -14,7 +14,7 @@ use socket2::{Domain, Protocol, Socket, Type};
 
 use super::interface::LocalInterface;
 use super::resolve::resolve_first;
-use super::udp_send::choose_device;
+use super::udp_send::{choose_device, is_nobody};
 use crate::endpoint::UdpAddress;
 use crate::error::{Error, Result};
 
@@ -51,9 +51,9 @@ pub struct UdpReceiver {
 impl UdpReceiver {
     /// Binds the address, and joins it if it is a multicast group.
     ///
-    /// Only a group can be shared with other programs (`SO_REUSEADDR`). An `interface` is the one
-    /// that a group is joined on; for any other address only datagrams that arrive on it are
-    /// taken.
+    /// Only a group, or the address of all that is 255.255.255.255, can be shared with other programs
+    /// (`SO_REUSEADDR`). An `interface` is the one that a group is joined on; for any other address only datagrams that
+    /// arrive on it are taken.
     ///
     /// # Errors
     /// [`Error::Resolve`], [`Error::Interface`], and [`Error::Socket`] when the system refuses,
@@ -78,7 +78,8 @@ impl UdpReceiver {
             if let Some(interface) = interface {
                 choose_device(&socket, interface)?;
             }
-            socket.bind(&scoped(local, interface).into()).map_err(refused)?;
+            let bound = if is_broadcast(local) { everywhere(local) } else { local };
+            socket.bind(&scoped(bound, interface).into()).map_err(refused)?;
         }
         Self::over(socket.into()).map_err(refused)
     }
@@ -97,6 +98,26 @@ impl UdpReceiver {
             Err(error) => Err(Error::socket("receive on", format!("udp {}", self.local), &error)),
             Ok(count) => Ok(count),
         }
+    }
+
+    /// Sends a datagram from the same address, without waiting for anything but room in the system.
+    ///
+    /// # Errors
+    /// [`Error::Socket`] when the system refuses it. A target where nobody listens is no error.
+    pub fn send(&self, datagram: &[u8], to: SocketAddr) -> Result<()> {
+        match self.socket.send_to(datagram, to) {
+            Err(error) if !is_nobody(&error) => Err(Error::socket("send to", format!("udp {to}"), &error)),
+            _ => Ok(()),
+        }
+    }
+
+    /// Allows [`send`](Self::send) to broadcast addresses.
+    ///
+    /// # Errors
+    /// [`Error::Socket`] when the system refuses.
+    pub fn allow_broadcast(&self) -> Result<()> {
+        let allowed = self.socket.set_broadcast(true);
+        allowed.map_err(|error| Error::socket("broadcast from", format!("udp {}", self.local), &error))
     }
 
     /// The address that the socket is bound to, its port the real one.
@@ -165,20 +186,28 @@ fn open(local: SocketAddr) -> io::Result<Socket> {
     if local.is_ipv6() {
         socket.set_only_v6(false)?;
     }
-    if local.ip().is_multicast() {
+    if local.ip().is_multicast() || is_broadcast(local) {
         socket.set_reuse_address(true)?;
     }
     Ok(socket)
 }
 
+/// What to bind for what comes to an address that is nobody's own. Bound to that itself, Linux keeps datagrams for other
+/// addresses away. Other systems cannot.
+fn everywhere(address: SocketAddr) -> SocketAddr {
+    match address {
+        _ if cfg!(target_os = "linux") => address,
+        SocketAddr::V4(_) => SocketAddr::new(Ipv4Addr::UNSPECIFIED.into(), address.port()),
+        SocketAddr::V6(_) => SocketAddr::new(Ipv6Addr::UNSPECIFIED.into(), address.port()),
+    }
+}
+
+fn is_broadcast(address: SocketAddr) -> bool {
+    matches!(address.ip(), IpAddr::V4(address) if address.is_broadcast())
+}
+
 fn join(socket: &Socket, group: SocketAddr, ipv4: Ipv4Addr, interface: Option<&LocalInterface>) -> io::Result<()> {
-    // Bound to the group itself, Linux keeps datagrams for other groups away. Other systems cannot.
-    let local = match group {
-        _ if cfg!(target_os = "linux") => group,
-        SocketAddr::V4(_) => SocketAddr::new(Ipv4Addr::UNSPECIFIED.into(), group.port()),
-        SocketAddr::V6(_) => SocketAddr::new(Ipv6Addr::UNSPECIFIED.into(), group.port()),
-    };
-    socket.bind(&scoped(local, interface).into())?;
+    socket.bind(&scoped(everywhere(group), interface).into())?;
     only_joined(socket, group)?;
     match group.ip() {
         IpAddr::V4(group) => socket.join_multicast_v4(&group, &ipv4),
@@ -223,7 +252,8 @@ fn force_buffer(_socket: &socket2::SockRef<'_>) {}
 
 fn is_nothing(error: &io::Error) -> bool {
     use io::ErrorKind::{Interrupted, TimedOut, WouldBlock};
-    matches!(error.kind(), WouldBlock | TimedOut | Interrupted)
+    // Some systems tell a receiver that nobody was where it sent to.
+    matches!(error.kind(), WouldBlock | TimedOut | Interrupted) || is_nobody(error)
 }
 
 /// The sender's address; an IPv4 one as such, also when it came through an IPv6 socket.

@@ -151,18 +151,18 @@ pub(super) fn choose_device(_socket: &Socket, interface: &LocalInterface) -> Res
 }
 
 #[cfg(unix)]
-fn is_no_room(error: &io::Error) -> bool {
+pub(super) fn is_no_room(error: &io::Error) -> bool {
     let no_buffers = error.raw_os_error() == Some(nix::errno::Errno::ENOBUFS as i32);
     no_buffers || error.kind() == io::ErrorKind::WouldBlock
 }
 
 #[cfg(not(unix))]
-fn is_no_room(error: &io::Error) -> bool {
+pub(super) fn is_no_room(error: &io::Error) -> bool {
     error.kind() == io::ErrorKind::WouldBlock
 }
 
 /// The answer of the target's system to an earlier datagram.
-fn is_nobody(error: &io::Error) -> bool {
+pub(super) fn is_nobody(error: &io::Error) -> bool {
     use io::ErrorKind::{ConnectionRefused, ConnectionReset};
     matches!(error.kind(), ConnectionRefused | ConnectionReset)
 }

@@ -2,7 +2,9 @@
 
 mod file;
 mod mxtp;
+mod natnet;
 mod playback;
+mod report;
 pub mod synthetic;
 mod walk;
 
@@ -13,6 +15,7 @@ use crate::endpoint::Endpoint;
 use crate::session::Outlet;
 use crate::stop::Stop;
 use mxtp::{MxtpTcp, MxtpUdp};
+use natnet::NatNet;
 use playback::Playback;
 
 /// Where frames come from: opened, and not yet running.
@@ -27,6 +30,7 @@ pub struct Source {
 enum Kind {
     MxtpUdp(MxtpUdp),
     MxtpTcp(MxtpTcp),
+    NatNet(Box<NatNet>),
     Playback(Playback),
 }
 
@@ -40,6 +44,7 @@ impl Source {
         let kind = match endpoint {
             Endpoint::MxtpUdp(address) => Kind::MxtpUdp(MxtpUdp::open(address)?),
             Endpoint::MxtpTcp(address) => Kind::MxtpTcp(MxtpTcp::open(address)?),
+            Endpoint::NatNet(address) => Kind::NatNet(Box::new(NatNet::open(address)?)),
             Endpoint::Synthetic(walk) => Kind::Playback(Playback::of_walk(walk, options)?),
             Endpoint::File { path, format } => {
                 format.check_readable(path)?;
@@ -49,6 +54,7 @@ impl Source {
         let endpoint = match &kind {
             Kind::MxtpUdp(source) => source.endpoint(),
             Kind::MxtpTcp(source) => source.endpoint(),
+            Kind::NatNet(source) => source.endpoint(),
             Kind::Playback(_) => endpoint.clone(),
         };
         Ok(Self { endpoint, kind })
@@ -79,6 +85,7 @@ impl Source {
                 source.run(outlet, stop);
                 Ok(())
             }
+            Kind::NatNet(source) => source.run(outlet, stop),
             Kind::Playback(playback) => playback.run(outlet, stop),
         }
     }

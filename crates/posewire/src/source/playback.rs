@@ -26,10 +26,12 @@ pub struct PlaybackOptions {
     pub duration: Option<Duration>,
     /// Whether a damaged file is used up to the damage.
     pub salvage: bool,
+    /// Whether what a take lacks is computed from its poses: velocities, angles, the centre of mass.
+    pub computes: bool,
 }
 
 impl Default for PlaybackOptions {
-    /// Every sample, once, at the recorded pace.
+    /// Every sample, once, at the recorded pace, with what can be computed.
     fn default() -> Self {
         Self {
             rate_hz: None,
@@ -37,6 +39,7 @@ impl Default for PlaybackOptions {
             looped: false,
             duration: None,
             salvage: false,
+            computes: true,
         }
     }
 }
@@ -96,7 +99,8 @@ pub(super) struct Playback {
 
 impl Playback {
     pub(super) fn of_file(path: &Path, options: &PlaybackOptions) -> Result<Self> {
-        Self::new(Box::new(TakeFile::open(path, options.salvage)?), options)
+        let take = TakeFile::open(path, options.salvage, options.computes)?;
+        Self::new(Box::new(take), options)
     }
 
     pub(super) fn of_walk(walk: &endpoint::Walk, options: &PlaybackOptions) -> Result<Self> {

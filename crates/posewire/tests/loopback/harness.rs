@@ -3,7 +3,7 @@
 use posewire::endpoint::Endpoint;
 use posewire::sink::{MxtpSink, MxtpSinkOptions, Progress};
 use posewire::source::PlaybackOptions;
-use posewire::stats::{Statistics, TypeStatistics};
+use posewire::stats::{DatagramKind, ServerStatistics, Statistics, StreamStatistics};
 use posewire::stop::Stop;
 use posewire::{Item, Notice, Result, Session, Sink, Source};
 use posewire_motion::{Frame, Subject};
@@ -22,8 +22,17 @@ pub(crate) struct Gathered {
 }
 
 impl Gathered {
+    /// The numbers of the server that it came from.
+    pub(crate) fn server(&self) -> ServerStatistics {
+        let statistics = self
+            .statistics
+            .as_ref()
+            .expect("a receiver gives statistics when it ends");
+        ServerStatistics::clone(statistics.server.as_ref().expect("the server has answered"))
+    }
+
     /// The numbers of one datagram type of one character.
-    pub(crate) fn statistics_of(&self, character: u32, message_type: MessageType) -> &TypeStatistics {
+    pub(crate) fn statistics_of(&self, character: u32, message_type: MessageType) -> &StreamStatistics {
         let statistics = self
             .statistics
             .as_ref()
@@ -32,10 +41,10 @@ impl Gathered {
             .subjects
             .iter()
             .find(|subject| subject.subject.id == character);
-        let types = &subject.expect("the character was heard").types;
-        types
+        let streams = &subject.expect("the character was heard").streams;
+        streams
             .iter()
-            .find(|of_type| of_type.message_type == message_type)
+            .find(|stream| stream.kind == DatagramKind::Mxtp(message_type))
             .expect("the type was heard")
     }
 
@@ -48,22 +57,17 @@ impl Gathered {
         assert_eq!(statistics.malformed, 0);
         assert_eq!(statistics.kernel_dropped, 0);
         assert_eq!(statistics.skipped_bytes, 0);
-        for subject in &statistics.subjects {
-            for of_type in &subject.types {
-                let counters = &of_type.counters;
-                let losses = [
-                    counters.missing,
-                    counters.duplicate,
-                    counters.late,
-                    counters.reset,
-                    counters.incomplete,
-                ];
-                assert_eq!(
-                    losses, [0; 5],
-                    "type {} of character {}",
-                    of_type.message_type, subject.subject.id
-                );
-            }
+        for (subject, stream) in statistics.streams() {
+            let counters = &stream.counters;
+            let losses = [
+                counters.missing,
+                counters.duplicate,
+                counters.late,
+                counters.reset,
+                counters.incomplete,
+            ];
+            let of = subject.map(|subject| subject.id);
+            assert_eq!(losses, [0; 5], "{} of {of:?}", stream.kind);
         }
     }
 }
@@ -75,6 +79,13 @@ pub(crate) struct Gatherer(Arc<(Mutex<Gathered>, Condvar)>);
 impl Gatherer {
     pub(crate) fn lock(&self) -> MutexGuard<'_, Gathered> {
         self.0.0.lock().unwrap()
+    }
+
+    /// Waits no longer than `time` until what was gathered is enough; whether it is.
+    pub(crate) fn comes_within(&self, time: Duration, enough: impl Fn(&Gathered) -> bool) -> bool {
+        let waiting = |gathered: &mut Gathered| !enough(gathered);
+        let (_gathered, timeout) = self.0.1.wait_timeout_while(self.lock(), time, waiting).unwrap();
+        !timeout.timed_out()
     }
 
     /// Waits until what was gathered is enough; fails when it is not in a generous time.

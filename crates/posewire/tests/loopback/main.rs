@@ -2,6 +2,8 @@
 
 mod ends;
 mod harness;
+mod natnet;
+mod natnet_sink;
 mod reference;
 mod transports;
 mod walkers;

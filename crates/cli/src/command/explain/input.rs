@@ -63,7 +63,7 @@ fn too_much(path: &Path) -> Usage {
 fn refuse_url(path: &Path) -> Result<(), Usage> {
     let text = path.to_string_lossy();
     match text.parse() {
-        Ok(Endpoint::MxtpUdp(_) | Endpoint::MxtpTcp(_)) => Err(Usage {
+        Ok(Endpoint::MxtpUdp(_) | Endpoint::MxtpTcp(_) | Endpoint::NatNet(_)) => Err(Usage {
             problem: format!("{text} is a live stream, explain reads a file"),
             help: format!("posewire monitor {text}"),
         }),

@@ -91,7 +91,7 @@ fn check_name(path: &Path) -> anyhow::Result<Option<posewire::Error>> {
     let text = path.to_string_lossy();
     let usage = |problem: String, help: String| Err(Usage { problem, help }.into());
     match text.parse() {
-        Ok(Endpoint::MxtpUdp(_) | Endpoint::MxtpTcp(_)) => usage(
+        Ok(Endpoint::MxtpUdp(_) | Endpoint::MxtpTcp(_) | Endpoint::NatNet(_)) => usage(
             format!("{text} is a live stream, inspect reads a take"),
             format!("posewire monitor {text}"),
         ),

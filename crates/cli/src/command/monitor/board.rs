@@ -1,7 +1,8 @@
 //! The newest of everything, for whoever shows it.
 
-use crate::plain::{plural, printable};
-use posewire::endpoint::{Endpoint, TcpMode};
+use super::hint;
+use super::protocol::Protocol;
+use posewire::endpoint::Endpoint;
 use posewire::queue::Policy;
 use posewire::stats::Statistics;
 use posewire::stop::Stop;
@@ -13,9 +14,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 /// The newest of everything that a stream brought. Clones are the same board.
 #[derive(Clone)]
 pub(super) struct Board {
+    endpoint: Arc<Endpoint>,
     listening: Arc<str>,
-    /// Whether it is we who connect to the sender.
-    connects: bool,
     newest: Arc<Mutex<Newest>>,
     count: Option<u64>,
     stop: Stop,
@@ -25,16 +25,29 @@ pub(super) struct Board {
 struct Newest {
     frames: BTreeMap<u32, Arc<Frame>>,
     statistics: Option<Arc<Statistics>>,
+    /// The newest word about the connection.
     notice: Option<Notice>,
+    /// What the source has remarked, without repetitions, the newest last.
+    remarks: Vec<Arc<str>>,
     samples: u64,
+}
+
+impl Newest {
+    fn remark(&mut self, text: &str) {
+        self.remarks.retain(|known| **known != *text);
+        self.remarks.push(text.into());
+        if self.remarks.len() > MOST_REMARKS {
+            self.remarks.remove(0);
+        }
+    }
 }
 
 impl Board {
     /// A board that sets `stop` after `count` samples.
     pub(super) fn new(endpoint: &Endpoint, count: Option<u64>, stop: Stop) -> Self {
         Self {
+            endpoint: Arc::new(endpoint.clone()),
             listening: endpoint.to_string().into(),
-            connects: matches!(endpoint, Endpoint::MxtpTcp(address) if address.mode == Some(TcpMode::Connect)),
             newest: Arc::default(),
             count,
             stop,
@@ -50,10 +63,13 @@ impl Board {
         &self.listening
     }
 
+    pub(super) fn protocol(&self) -> Protocol {
+        Protocol::of(&self.endpoint)
+    }
+
     /// What to say when it begins.
     pub(super) fn opening(&self) -> String {
-        let verb = if self.connects { "connecting to" } else { "listening on" };
-        format!("{verb} {}", self.listening)
+        hint::opening(&self.endpoint)
     }
 
     pub(super) fn statistics(&self) -> Option<Arc<Statistics>> {
@@ -69,55 +85,30 @@ impl Board {
         self.lock().notice.clone()
     }
 
-    /// How much has come that could be read, in no particular unit: what grows is heard.
+    /// The newest remarks about the source.
+    pub(super) fn remarks(&self) -> Vec<Arc<str>> {
+        self.lock().remarks.clone()
+    }
+
+    /// How much has come that could be read, in no particular unit: what grows is heard. A server that answers and sends
+    /// nothing of a subject is not heard.
     pub(super) fn heard(&self) -> u64 {
         let newest = self.lock();
+        if self.protocol() == Protocol::NatNet {
+            return newest.samples;
+        }
         let statistics = newest.statistics.as_ref();
         newest.samples + statistics.map_or(0, |all| all.datagrams.saturating_sub(all.malformed))
     }
 
     /// What to check when nothing comes that can be read.
     pub(super) fn hint(&self) -> String {
-        let listening = &self.listening;
-        if self.heard() > 0 {
-            return format!("nothing more comes to {listening}: is the sender paused, or gone?");
-        }
-        match self.statistics() {
-            Some(all) if all.datagrams > 0 || all.skipped_bytes > 0 => unreadable(listening, &all),
-            _ if self.connects => format!(
-                "nothing has come from {listening} yet. Check that\n\
-                 - a streamer listens there, as posewire stream does with ?mode=listen\n\
-                 - no firewall keeps us away from that port"
-            ),
-            _ => format!(
-                "nothing has come to {listening} yet. Check that\n\
-                 - the sender streams to an address of this machine and to this port\n\
-                 - no firewall keeps it away: UDP and TCP have rules of their own\n\
-                 - both sides speak the same: mxtp:// is UDP, mxtp+tcp:// is TCP"
-            ),
-        }
+        hint::of(&self.endpoint, self.heard() > 0, self.statistics().as_deref())
     }
 
     fn lock(&self) -> MutexGuard<'_, Newest> {
         self.newest.lock().unwrap_or_else(PoisonError::into_inner)
     }
-}
-
-/// What has come and cannot be read, and what to check.
-fn unreadable(listening: &str, all: &Statistics) -> String {
-    let what = match &all.last_malformed {
-        Some(last) => format!(
-            "{}, none MXTP; the last: {}",
-            plural(all.datagrams, "datagram"),
-            printable(last)
-        ),
-        None => format!("{} without an MXTP datagram in them", plural(all.skipped_bytes, "byte")),
-    };
-    format!(
-        "what comes to {listening} cannot be read: {what}. Check that\n\
-         - it is the Network Streamer of MVN that sends to this port\n\
-         - no other program, as a broadcast, uses this port"
-    )
 }
 
 struct BoardSink(Board);
@@ -139,6 +130,7 @@ impl Sink for BoardSink {
                 }
             }
             Item::Statistics(statistics) => newest.statistics = Some(Arc::clone(statistics)),
+            Item::Notice(Notice::Remark { text }) => newest.remark(text),
             Item::Notice(notice) => newest.notice = Some(notice.clone()),
             _ => {}
         }
@@ -155,10 +147,11 @@ impl Sink for BoardSink {
 /// Four seconds of 16 people at 240 Hz.
 pub(super) const QUEUED_ITEMS: usize = 16_384;
 
+const MOST_REMARKS: usize = 4;
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use posewire_motion::Stamp;
     use std::time::Duration;
 
     #[test]
@@ -171,17 +164,12 @@ mod tests {
                 .starts_with("nothing has come to mxtp://127.0.0.1:9763 yet")
         );
         let mut statistics = Statistics {
-            at: Stamp(0),
             elapsed: Duration::from_secs(3),
-            ended: false,
             datagrams: 5,
             bytes: 50,
             malformed: 5,
             last_malformed: Some("found \x1b[2J".to_owned()),
-            skipped_bytes: 0,
-            kernel_dropped: 0,
-            characters_refused: 0,
-            subjects: Vec::new(),
+            ..Statistics::default()
         };
         sink.accept(&Item::Statistics(Arc::new(statistics.clone()))).unwrap();
         assert_eq!(board.heard(), 0);

@@ -1,8 +1,10 @@
 //! `posewire monitor`: receive a stream, check it and show it.
 
 mod board;
+mod hint;
 mod page;
 mod print;
+mod protocol;
 mod silence;
 
 use super::End;

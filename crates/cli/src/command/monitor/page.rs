@@ -1,6 +1,8 @@
 //! The live page of a terminal: a screen, the keys, and twenty pictures a second at most.
 
 mod angles;
+mod blocks;
+mod bodies;
 mod characters;
 mod controls;
 mod draw;
@@ -11,7 +13,9 @@ mod header;
 mod layout;
 mod overlay;
 mod pose;
+mod positions;
 mod problems;
+mod server;
 mod stick;
 mod table;
 mod text;

@@ -50,6 +50,9 @@ impl Printer {
             Format::Plain => write_plain(&mut self.out, statistics)?,
             Format::Json { .. } => {
                 json::write(&mut self.out, &json::ReceiverRecord::new(statistics))?;
+                if let Some(server) = json::ServerRecord::new(statistics) {
+                    json::write(&mut self.out, &server)?;
+                }
                 json::statistics(statistics).try_for_each(|object| json::write(&mut self.out, &object))?;
             }
         }

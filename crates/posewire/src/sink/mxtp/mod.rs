@@ -1,16 +1,15 @@
 //! MXTP to the network, as MVN's Network Streamer sends it.
 
-mod progress;
+mod fitting;
 mod target;
 mod tcp;
 
-pub use progress::{Progress, TargetProgress};
-
-use super::Sink;
+use super::{Progress, Sink, TargetProgress};
 use crate::endpoint::Endpoint;
 use crate::histogram::DurationHistogram;
 use crate::stop::Stop;
 use crate::{Error, Item, Result};
+use fitting::Fitting;
 use posewire_motion::{Frame, Subject};
 use posewire_mxtp::Revision;
 use posewire_mxtp::motion::{Datagrams, Encoder, EncoderOptions, MessageTypes};
@@ -32,6 +31,9 @@ pub struct MxtpSinkOptions {
     pub character: u8,
     /// A name instead of the subject's own.
     pub name: Option<String>,
+    /// Whether subjects are fitted to MVN's skeleton, as those of another system must be: skeletons are recognised by
+    /// the names of their segments, as MVN or Motive has them, and what is no person is left out.
+    pub fit: bool,
 }
 
 impl Default for MxtpSinkOptions {
@@ -43,6 +45,7 @@ impl Default for MxtpSinkOptions {
             split: None,
             character: 0,
             name: None,
+            fit: false,
         }
     }
 }
@@ -56,6 +59,7 @@ pub struct MxtpSink {
     options: MxtpSinkOptions,
     targets: Vec<Target>,
     characters: BTreeMap<u32, Character>,
+    fitting: Option<Fitting>,
     datagrams: Datagrams,
     progress: Arc<Mutex<Progress>>,
     lateness: DurationHistogram,
@@ -78,6 +82,7 @@ impl MxtpSink {
     pub fn open(targets: &[Endpoint], options: MxtpSinkOptions) -> Result<Self> {
         let targets = targets.iter().map(Target::open).collect::<Result<Vec<_>>>()?;
         let sink = Self {
+            fitting: options.fit.then(Fitting::default),
             options,
             targets,
             characters: BTreeMap::new(),
@@ -148,6 +153,35 @@ impl MxtpSink {
         }
     }
 
+    /// Describes the character that a subject is, if it is one.
+    fn describe_fitted(&mut self, subject: &Arc<Subject>) -> Result<()> {
+        let Some(fitting) = &mut self.fitting else {
+            return self.describe(subject);
+        };
+        let character = fitting.character(subject);
+        self.tell_left_out();
+        character.map_or(Ok(()), |character| self.describe(&character))
+    }
+
+    fn send_fitted(&mut self, frame: &Frame, due: Option<Instant>) -> Result<()> {
+        let Some(fitting) = &mut self.fitting else {
+            return self.send_frame(frame, due);
+        };
+        if let Some(frame) = fitting.frame(frame) {
+            return self.send_frame(&frame, due);
+        }
+        self.tell_left_out();
+        Ok(())
+    }
+
+    fn tell_left_out(&self) {
+        let left_out = self.fitting.as_ref().map(Fitting::left_out).unwrap_or_default();
+        let mut progress = self.lock_progress();
+        if progress.left_out.len() < left_out.len() {
+            progress.left_out = left_out.to_vec();
+        }
+    }
+
     fn send_frame(&mut self, frame: &Frame, due: Option<Instant>) -> Result<()> {
         if !self.characters.contains_key(&frame.subject.id) {
             self.describe(&frame.subject)?;
@@ -197,8 +231,8 @@ fn send(targets: &mut [Target], datagrams: &Datagrams) -> Result<()> {
 impl Sink for MxtpSink {
     fn accept(&mut self, item: &Item) -> Result<()> {
         match item {
-            Item::Subject(subject) => self.describe(subject),
-            Item::Frame { frame, due } => self.send_frame(frame, *due),
+            Item::Subject(subject) => self.describe_fitted(subject),
+            Item::Frame { frame, due } => self.send_fitted(frame, *due),
             _ => Ok(()),
         }
     }

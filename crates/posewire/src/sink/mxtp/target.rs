@@ -1,9 +1,9 @@
 //! One target of a stream.
 
-use super::progress::TargetProgress;
 use super::tcp::TcpTarget;
 use crate::endpoint::{Endpoint, TcpAddress};
 use crate::net::UdpSender;
+use crate::sink::TargetProgress;
 use crate::{Error, Result};
 use posewire_mxtp::motion::Datagrams;
 
@@ -79,7 +79,7 @@ impl Target {
                     datagrams: counts.sent,
                     congested: counts.congested,
                     failed: counts.failed,
-                    dropped: 0,
+                    ..TargetProgress::default()
                 }
             }
             Self::Tcp { endpoint, target } => TargetProgress {

@@ -2,19 +2,19 @@
 
 use crate::clock::Clock;
 use crate::session::Outlet;
+use crate::source::report::Reports;
 use crate::stats::{Edge, Tally};
 use crate::{Item, Notice};
 use posewire_motion::Stamp;
 use posewire_mxtp::{Assembler, Event};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 /// Assembles what arrives, counts it, and hands it on.
 pub(super) struct Intake<'a> {
     assembler: Assembler,
     tally: Tally,
     clock: Clock,
-    next_report: Instant,
+    reports: Reports,
     outlet: &'a mut Outlet,
 }
 
@@ -24,7 +24,7 @@ impl<'a> Intake<'a> {
         Self {
             assembler: Assembler::new(),
             tally: Tally::new(clock.now()),
-            next_report: Instant::now() + REPORT_EVERY,
+            reports: Reports::new(),
             clock,
             outlet,
         }
@@ -42,7 +42,7 @@ impl<'a> Intake<'a> {
         self.outlet.push(Item::Notice(notice));
     }
 
-    /// To be called after each batch and at least every [`TICK`]: closes what waited too long, reports once a second
+    /// To be called after each batch and at least every [`TICK`](crate::source::report::TICK): closes what waited too long, reports once a second
     /// and hands everything to the sinks. `false` when no sink is left.
     pub(super) fn tick(&mut self, kernel_dropped: u64, skipped_bytes: u64) -> bool {
         let now = self.clock.now();
@@ -50,9 +50,7 @@ impl<'a> Intake<'a> {
             self.assembler.handle_timeout(now);
             self.forward(now);
         }
-        let instant = Instant::now();
-        if instant >= self.next_report {
-            self.next_report = report_after(self.next_report, instant);
+        if self.reports.is_due() {
             self.report(
                 Edge {
                     now,
@@ -106,31 +104,5 @@ impl<'a> Intake<'a> {
                 _ => {}
             }
         }
-    }
-}
-
-/// When the next report is due after one that was due and is given now. Those missed in a stall are left out.
-fn report_after(due: Instant, now: Instant) -> Instant {
-    let next = due + REPORT_EVERY;
-    if next > now { next } else { now + REPORT_EVERY }
-}
-
-/// The longest that a source waits before it looks at the clock.
-pub(super) const TICK: Duration = Duration::from_millis(20);
-/// How long a source goes on at the stop with what has arrived by then.
-pub(super) const DRAIN_LIMIT: Duration = Duration::from_millis(100);
-const REPORT_EVERY: Duration = Duration::from_secs(1);
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn reports_missed_in_a_stall_are_left_out() {
-        let due = Instant::now();
-        let late = |milliseconds| due + Duration::from_millis(milliseconds);
-        assert_eq!(report_after(due, late(20)), late(1000));
-        assert_eq!(report_after(due, late(1000)), late(2000));
-        assert_eq!(report_after(due, late(60_500)), late(61_500));
     }
 }

@@ -3,11 +3,12 @@
 mod peers;
 
 use self::peers::{accept_peers, call_peer};
-use super::intake::{Intake, TICK};
+use super::intake::Intake;
 use crate::endpoint::{Endpoint, TcpAddress, TcpMode};
 use crate::net::{self, TcpIncoming};
 use crate::queue::{Consumer, Policy, Producer, bounded};
 use crate::session::Outlet;
+use crate::source::report::TICK;
 use crate::stop::Stop;
 use crate::{Error, Notice, Result};
 use posewire_motion::Stamp;

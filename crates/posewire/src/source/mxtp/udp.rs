@@ -1,10 +1,11 @@
 //! MXTP over UDP.
 
-use super::intake::{DRAIN_LIMIT, Intake, TICK};
+use super::intake::Intake;
 use crate::Result;
 use crate::endpoint::{Endpoint, UdpAddress};
 use crate::net::UdpReceiver;
 use crate::session::Outlet;
+use crate::source::report::{DRAIN_LIMIT, TICK};
 use crate::stop::Stop;
 use std::time::{Duration, Instant};
 

@@ -1,5 +1,7 @@
 //! The list of characters, a line for each.
 
+use super::super::protocol::Protocol;
+use super::bodies;
 use super::draw::rule;
 use super::layout::top;
 use super::table::{Column, Table, put, put_right, slot, width};
@@ -13,7 +15,11 @@ use ratatui::style::Style;
 /// Draws the list so that the selected character is in it.
 pub(super) fn draw(buffer: &mut Buffer, mut area: Rect, view: &View, selected: &Character, theme: Theme) {
     let title = top(&mut area, 1);
-    let table = Table::fit(&COLUMNS, area.width);
+    let (columns, cell): (&[Column], Cell) = match view.protocol {
+        Protocol::Mxtp => (&COLUMNS, cell),
+        Protocol::NatNet => (&bodies::COLUMNS, bodies::cell),
+    };
+    let table = Table::fit(columns, area.width);
     let head = if area.height > 1 { top(&mut area, 1) } else { Rect::ZERO };
     table.head(buffer, head, 0);
     let place = view
@@ -31,13 +37,17 @@ pub(super) fn draw(buffer: &mut Buffer, mut area: Rect, view: &View, selected: &
     draw_title(buffer, title, view, (first, area.height.into()), theme);
 }
 
+/// What a list shows of a subject, whether it is the selected one, in a column of a width.
+type Cell = fn(&Character, bool, (usize, usize), Theme) -> (String, Style);
+
 fn draw_title(buffer: &mut Buffer, line: Rect, view: &View, (first, shown): (usize, usize), theme: Theme) {
     rule(buffer, line);
     let all = view.characters.len();
+    let what = view.protocol.subject();
     let text = match all {
-        1 => " 1 character ".to_owned(),
-        _ if shown < all => format!(" {all} characters, {} to {} ", first + 1, all.min(first + shown)),
-        _ => format!(" {all} characters "),
+        1 => format!(" 1 {what} "),
+        _ if shown < all => format!(" {all} {what}s, {} to {} ", first + 1, all.min(first + shown)),
+        _ => format!(" {all} {what}s "),
     };
     put(
         buffer,
@@ -91,6 +101,7 @@ pub(super) const fn state_text(state: State) -> &'static str {
     match state {
         State::Waiting => "○ WAIT",
         State::Live => "● LIVE",
+        State::Partial => "◔ PART",
         State::Stale => "◐ STALE",
         State::Lost => "✗ LOST",
     }

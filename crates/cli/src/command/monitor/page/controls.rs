@@ -1,5 +1,6 @@
 //! What the keys have set.
 
+use super::super::protocol::Protocol;
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 /// What the keys have set.
@@ -21,22 +22,26 @@ pub(super) struct Controls {
 /// A part of the page that takes turns with others on a small terminal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Pane {
+    /// What comes: the datagram types of a character, or the server.
     #[default]
-    Types,
+    Stream,
     Figure,
-    Angles,
+    /// The numbers of a sample: joint angles, or positions.
+    Details,
     Problems,
 }
 
 impl Pane {
-    pub(super) const ALL: [Self; 4] = [Self::Types, Self::Figure, Self::Angles, Self::Problems];
+    pub(super) const ALL: [Self; 4] = [Self::Stream, Self::Figure, Self::Details, Self::Problems];
 
-    pub(super) const fn title(self) -> &'static str {
-        match self {
-            Self::Types => "datagram types",
-            Self::Figure => "figure",
-            Self::Angles => "joint angles",
-            Self::Problems => "problems",
+    pub(super) const fn title(self, protocol: Protocol) -> &'static str {
+        match (self, protocol) {
+            (Self::Stream, Protocol::Mxtp) => "datagram types",
+            (Self::Stream, Protocol::NatNet) => "server",
+            (Self::Figure, _) => "figure",
+            (Self::Details, Protocol::Mxtp) => "joint angles",
+            (Self::Details, Protocol::NatNet) => "positions",
+            (Self::Problems, _) => "problems",
         }
     }
 }
@@ -130,19 +135,19 @@ mod tests {
 
     #[test]
     fn tab_goes_round_the_panes_and_back() {
-        assert_eq!(after(&[KeyCode::Tab; 4]).pane, Pane::Types);
+        assert_eq!(after(&[KeyCode::Tab; 4]).pane, Pane::Stream);
         assert_eq!(after(&[KeyCode::BackTab]).pane, Pane::Problems);
     }
 
     #[test]
     fn tab_chooses_among_those_that_take_turns() {
-        let turns: &[Pane] = &[Pane::Figure, Pane::Angles];
+        let turns: &[Pane] = &[Pane::Figure, Pane::Details];
         let mut controls = Controls {
             turns,
             ..Controls::default()
         };
         controls.press(KeyCode::Tab.into(), &[]);
-        assert_eq!(controls.pane, Pane::Angles, "the figure was shown already");
+        assert_eq!(controls.pane, Pane::Details, "the figure was shown already");
         controls.press(KeyCode::Tab.into(), &[]);
         assert_eq!(controls.pane, Pane::Figure);
         controls.turns = &[];

@@ -1,5 +1,7 @@
 //! Made-up views for tests.
 
+pub(super) mod natnet;
+
 use super::view::{Character, Troubles, TypeRow, View};
 use posewire::histogram::Summary;
 use posewire_motion::kinematics::complete;
@@ -12,6 +14,7 @@ use std::time::Duration;
 pub(super) fn view(people: u32) -> View {
     View {
         listening: "mxtp://0.0.0.0:9763".to_owned(),
+        opening: "listening on mxtp://0.0.0.0:9763".to_owned(),
         elapsed: Duration::from_secs(83),
         datagrams: 98_400,
         datagrams_per_second: 1_203.0,
@@ -45,7 +48,7 @@ pub(super) fn trouble(view: &mut View) {
     row.incomplete = 4;
     row.malformed = 1;
     row.stride = Some(4);
-    row.quirks = vec![(Quirk::ItemCount, 240), (Quirk::PayloadSize, 99_000)];
+    row.quirks = vec![(Quirk::ItemCount.into(), 240), (Quirk::PayloadSize.into(), 99_000)];
 }
 
 /// A sample of someone in the T-pose, 1.75 m tall, at the origin.
@@ -86,6 +89,7 @@ fn character(id: u32) -> Character {
         age: Duration::from_millis(4),
         timecode,
         types,
+        tracking: None,
     }
 }
 
@@ -103,7 +107,7 @@ fn type_row(message_type: MessageType) -> TypeRow {
         max: period * 2,
     };
     TypeRow {
-        message_type,
+        kind: message_type.into(),
         rate_hz: 1.0 / period.as_secs_f64(),
         stride: often.then_some(1),
         received: if often { 19_920 } else { 83 },

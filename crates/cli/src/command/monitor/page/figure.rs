@@ -1,5 +1,6 @@
 //! The stick figure from the front and from the side.
 
+use super::super::protocol::Protocol;
 use super::draw::rule;
 use super::layout::{bottom, top};
 use super::pose;
@@ -13,36 +14,48 @@ use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
 use ratatui::symbols::Marker;
 use ratatui::widgets::Widget;
-use ratatui::widgets::canvas::{Canvas, Circle, Context, Line};
+use ratatui::widgets::canvas::{Canvas, Circle, Context, Line, Points};
 
 /// Draws where the character is and how it stands.
-pub(super) fn draw(buffer: &mut Buffer, mut area: Rect, character: &Character, theme: Theme) {
+pub(super) fn draw(buffer: &mut Buffer, mut area: Rect, character: &Character, protocol: Protocol, theme: Theme) {
     let stick = character.frame.as_deref().and_then(Stick::new);
     let Some(stick) = stick else {
-        draw_missing(buffer, area, character);
+        draw_missing(buffer, area, character, protocol);
         return;
     };
     if area.height >= 2 * pose::LINES {
-        pose::draw(buffer, top(&mut area, pose::LINES), character);
+        match protocol {
+            Protocol::Mxtp => pose::draw(buffer, top(&mut area, pose::LINES), character),
+            Protocol::NatNet if character.subject.skeleton.segments.is_empty() => {}
+            Protocol::NatNet => pose::draw_segment(buffer, top(&mut area, pose::LINES), character),
+        }
     }
-    let age = (character.state() == State::Lost).then(|| format!("as it was {:.0} s ago", character.age.as_secs_f64()));
+    let age = (character.state() == State::Lost && !character.comes())
+        .then(|| format!("as it was {:.0} s ago", character.age.as_secs_f64()));
     if let (Some(age), true) = (age, area.height > 4) {
         put(buffer, slot(top(&mut area, 1), 0, 1, area.width), &age, theme.bad());
     }
-    let still = character.state() != State::Live;
+    let still = !character.comes();
     let color = if still {
         Color::Reset
     } else {
         theme.line(character.subject.color)
     };
-    let picture = Picture { stick: &stick, color };
+    let markers = if still { Color::Reset } else { theme.marker() };
+    let picture = Picture {
+        stick: &stick,
+        color,
+        markers,
+    };
     for (side, part) in picture.arrange(area) {
         picture.draw(buffer, part, side);
     }
 }
 
-fn draw_missing(buffer: &mut Buffer, area: Rect, character: &Character) {
+fn draw_missing(buffer: &mut Buffer, area: Rect, character: &Character, protocol: Protocol) {
     let lines = match &character.frame {
+        None if protocol == Protocol::NatNet => ["It is in no frame yet.", "Only its description was heard."],
+        Some(_) if protocol == Protocol::NatNet => ["Nothing of it is tracked: nothing to draw.", ""],
         None => [
             "No sample of this character has come yet.",
             "Only its description was heard.",
@@ -68,6 +81,7 @@ enum Side {
 struct Picture<'a> {
     stick: &'a Stick,
     color: Color,
+    markers: Color,
 }
 
 impl Picture<'_> {
@@ -123,10 +137,20 @@ impl Picture<'_> {
             .x_bounds([-half, half])
             .y_bounds([lowest - scale, lowest + scale * (lines - 1.0)])
             .paint(|context| {
+                // What is drawn later gives a cell its colour.
+                let dots: Vec<_> = self.stick.dots.iter().map(|dot| project(*dot, side).into()).collect();
+                context.draw(&Points {
+                    coords: &dots,
+                    color: self.markers,
+                });
                 let wide = scale < LARGE;
                 for bone in &self.stick.bones {
                     let [from, to] = bone.map(|end| project(end, side));
                     draw_bone(context, (from, to), wide.then_some(scale), self.color);
+                }
+                for (end, name) in self.stick.axes.iter().zip(["x", "y", "z"]) {
+                    let [x, y] = project(*end, side);
+                    context.print(x, y, name);
                 }
                 if let Some(head) = self.stick.head {
                     let ([x, y], radius) = (project(head, side), self.stick.head_radius);

@@ -4,7 +4,7 @@ use super::controls::Controls;
 use super::table::{put, put_right, slot, width};
 use super::text;
 use super::theme::{Theme, bold, faint};
-use super::view::View;
+use super::view::{Server, View};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
@@ -25,13 +25,19 @@ pub(super) fn draw(buffer: &mut Buffer, line: Rect, view: &View, controls: &Cont
         }
     }
     pieces.push(Piece::new(5, &text::clock(view.elapsed), Style::new()));
-    let datagrams = format!("{} datagrams, {:.0}/s", view.datagrams, view.datagrams_per_second);
-    pieces.push(Piece::new(4, &datagrams, Style::new()));
-    pieces.push(Piece::new(
-        3,
-        &text::bytes_per_second(view.bytes_per_second),
-        Style::new(),
-    ));
+    let bytes = text::bytes_per_second(view.bytes_per_second);
+    let (come, ranks) = match &view.server {
+        Some(Server { frames, .. }) => (
+            format!("{} frames, {} Hz", frames.received, text::rate(frames.rate_hz)),
+            (3, 4),
+        ),
+        None => (
+            format!("{} datagrams, {:.0}/s", view.datagrams, view.datagrams_per_second),
+            (4, 3),
+        ),
+    };
+    pieces.push(Piece::new(ranks.0, &come, Style::new()));
+    pieces.push(Piece::new(ranks.1, &bytes, Style::new()));
     if let Some(notice) = &view.notice {
         pieces.push(Piece::new(6, notice, faint()));
     }
@@ -39,10 +45,10 @@ pub(super) fn draw(buffer: &mut Buffer, line: Rect, view: &View, controls: &Cont
 }
 
 /// Draws the last line: those keys that do something now.
-pub(super) fn draw_keys(buffer: &mut Buffer, line: Rect, turns: usize, characters: usize) {
+pub(super) fn draw_keys(buffer: &mut Buffer, line: Rect, turns: usize, view: &View) {
     let mut keys = vec![("q", "quit")];
-    if characters > 1 {
-        keys.push(("↑↓", "character"));
+    if view.characters.len() > 1 {
+        keys.push(("↑↓", view.protocol.subject()));
     }
     if turns > 1 {
         keys.push(("Tab", "next pane"));

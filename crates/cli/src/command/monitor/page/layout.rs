@@ -1,6 +1,6 @@
 //! Where the parts of the page are on a terminal of any size.
 
-use super::angles;
+use super::blocks;
 use super::controls::Pane;
 use ratatui::layout::Rect;
 
@@ -20,9 +20,11 @@ pub(super) struct Layout {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wanted {
     pub(super) characters: u16,
-    pub(super) types: u16,
-    /// Joint angles, not lines: how many lines they take depends on the width.
-    pub(super) angles: u16,
+    /// The list of characters may take one line in so many.
+    pub(super) share: u16,
+    pub(super) stream: u16,
+    /// Joint angles or positions, not lines: how many lines they take depends on the width.
+    pub(super) details: u16,
     pub(super) problems: u16,
 }
 
@@ -39,7 +41,7 @@ impl Layout {
                 right(&mut rest, (area.width - BESIDE_FIGURE).clamp(FIGURE.0, FIGURE.1)),
             ));
         }
-        let most = (rest.height / 4).max(4);
+        let most = (rest.height / wanted.share).max(4);
         let characters = top(&mut rest, (wanted.characters + 2).min(most));
         let mut layout = Self {
             header,
@@ -55,26 +57,30 @@ impl Layout {
     /// Gives the rest to the panes: all of them, or some and the last in turns.
     fn fill(&mut self, mut rest: Rect, wanted: Wanted, pane: Pane) {
         let wide = !self.panes.is_empty();
-        let (types, angles, problems) = (
-            wanted.types + TITLE,
-            angles::lines(wanted.angles, rest.width) + TITLE,
+        let (stream, details, problems) = (
+            wanted.stream + TITLE,
+            blocks::lines(wanted.details, rest.width) + TITLE,
             wanted.problems.max(1) + TITLE,
         );
         let problems_least = problems.min(PROBLEMS_LEAST);
-        if wide && rest.height >= types + angles + problems_least {
-            self.panes.push((Pane::Types, top(&mut rest, types)));
-            self.panes.push((Pane::Angles, top(&mut rest, angles)));
+        if wide && rest.height >= stream + details + problems_least {
+            self.panes.push((Pane::Stream, top(&mut rest, stream)));
+            self.panes.push((Pane::Details, top(&mut rest, details)));
             self.panes.push((Pane::Problems, rest));
             return;
         }
         self.turns = if wide {
-            &[Pane::Types, Pane::Angles, Pane::Problems]
+            &[Pane::Stream, Pane::Details, Pane::Problems]
         } else {
             &Pane::ALL
         };
-        if rest.height >= types + FIGURE_LEAST {
-            self.panes.push((Pane::Types, top(&mut rest, types)));
-            self.turns = if wide { &[Pane::Angles, Pane::Problems] } else { &OTHERS };
+        if rest.height >= stream + FIGURE_LEAST {
+            self.panes.push((Pane::Stream, top(&mut rest, stream)));
+            self.turns = if wide {
+                &[Pane::Details, Pane::Problems]
+            } else {
+                &OTHERS
+            };
         }
         let turn = if self.turns.contains(&pane) {
             pane
@@ -140,7 +146,7 @@ const ROOM_FOR_FOOTER: u16 = 8;
 const ROOM_FOR_PROBLEMS: u16 = 9;
 /// A title and two lines.
 const PROBLEMS_LEAST: u16 = 3;
-const OTHERS: [Pane; 3] = [Pane::Figure, Pane::Angles, Pane::Problems];
+const OTHERS: [Pane; 3] = [Pane::Figure, Pane::Details, Pane::Problems];
 
 #[cfg(test)]
 mod tests {
@@ -148,8 +154,9 @@ mod tests {
 
     const WANTED: Wanted = Wanted {
         characters: 3,
-        types: 9,
-        angles: 28,
+        share: 4,
+        stream: 9,
+        details: 28,
         problems: 4,
     };
 
@@ -162,19 +169,22 @@ mod tests {
     fn a_small_terminal_shows_one_pane_and_two_problems() {
         assert_eq!(shown(80, 24, Pane::Figure), [Pane::Problems, Pane::Figure]);
         assert_eq!(shown(80, 24, Pane::Problems), [Pane::Problems]);
-        assert_eq!(shown(40, 10, Pane::Types), [Pane::Types]);
+        assert_eq!(shown(40, 10, Pane::Stream), [Pane::Stream]);
     }
 
     #[test]
     fn a_large_terminal_shows_everything() {
-        let all = [Pane::Figure, Pane::Types, Pane::Angles, Pane::Problems];
-        assert_eq!(shown(120, 40, Pane::Types), all);
+        let all = [Pane::Figure, Pane::Stream, Pane::Details, Pane::Problems];
+        assert_eq!(shown(120, 40, Pane::Stream), all);
         assert_eq!(shown(200, 60, Pane::Problems), all);
     }
 
     #[test]
     fn a_tall_terminal_shows_the_types_and_one_more() {
-        assert_eq!(shown(80, 50, Pane::Angles), [Pane::Types, Pane::Problems, Pane::Angles]);
+        assert_eq!(
+            shown(80, 50, Pane::Details),
+            [Pane::Stream, Pane::Problems, Pane::Details]
+        );
     }
 
     #[test]
@@ -184,7 +194,7 @@ mod tests {
             .flat_map(|width| (1..60).map(move |height| (width, height)))
         {
             let area = Rect::new(0, 0, width, height);
-            let layout = Layout::new(area, WANTED, Pane::Angles);
+            let layout = Layout::new(area, WANTED, Pane::Details);
             let mut parts = vec![layout.header, layout.characters, layout.footer];
             parts.extend(layout.panes.iter().map(|(_, part)| *part));
             for (place, part) in parts.iter().enumerate() {

@@ -1,5 +1,7 @@
 //! Boxes above the page: what the keys do, and what to check when nothing comes.
 
+use super::super::protocol::Protocol;
+use super::problems::wrap;
 use super::table::{put, slot, width};
 use super::theme::{Theme, faint};
 use super::view::View;
@@ -10,19 +12,29 @@ use ratatui::text::Line;
 use ratatui::widgets::{Block, BorderType, Clear, Padding, Paragraph, Widget, Wrap};
 
 /// Draws what the keys do and what the words mean.
-pub(super) fn draw_help(buffer: &mut Buffer, area: Rect, theme: Theme) {
-    draw_box(buffer, area, (" help ", theme.title()), HELP);
+pub(super) fn draw_help(buffer: &mut Buffer, area: Rect, protocol: Protocol, theme: Theme) {
+    draw_box(buffer, area, (" help ", theme.title()), &help(protocol));
 }
 
 /// Draws what is listened on and, after a while, what to check.
 pub(super) fn draw_silence(buffer: &mut Buffer, area: Rect, view: &View, theme: Theme) {
     if let Some(hint) = &view.hint {
-        draw_box(buffer, area, (" nothing heard ", theme.warn()), hint);
+        draw_hint(buffer, area, hint, &view.remarks, theme);
     } else {
-        let text = format!("listening on {}", view.listening);
-        let margin = area.width.saturating_sub(width(&text)) / 2;
-        put(buffer, slot(area, area.height / 2, margin, area.width), &text, faint());
+        let text = &view.opening;
+        let margin = area.width.saturating_sub(width(text)) / 2;
+        put(buffer, slot(area, area.height / 2, margin, area.width), text, faint());
     }
+}
+
+/// Draws what the source has remarked and what to check.
+pub(super) fn draw_hint(buffer: &mut Buffer, area: Rect, hint: &str, remarks: &[String], theme: Theme) {
+    let mut text = String::new();
+    for remark in remarks {
+        text.extend([remark, "\n\n"]);
+    }
+    text.push_str(hint);
+    draw_box(buffer, area, (" nothing heard ", theme.warn()), &text);
 }
 
 fn draw_box(buffer: &mut Buffer, area: Rect, (title, style): (&str, Style), text: &str) {
@@ -36,7 +48,7 @@ fn draw_box(buffer: &mut Buffer, area: Rect, (title, style): (&str, Style), text
     let room = usize::from(columns.saturating_sub(6).max(1));
     let lines: usize = text
         .lines()
-        .map(|line| usize::from(width(line)).div_ceil(room).max(1))
+        .map(|line| usize::from(width(line)).div_ceil(room).max(wrap(line, room).len()))
         .sum();
     let lines = u16::try_from(lines)
         .unwrap_or(u16::MAX)
@@ -61,20 +73,40 @@ fn draw_box(buffer: &mut Buffer, area: Rect, (title, style): (&str, Style), text
         .render(place, buffer);
 }
 
-const HELP: &str = "\
+fn help(protocol: Protocol) -> String {
+    let (subject, sample) = (protocol.subject(), protocol.sample());
+    let words = match protocol {
+        Protocol::Mxtp => OF_MXTP,
+        Protocol::NatNet => OF_NATNET,
+    };
+    format!(
+        "\
 q, Esc, Ctrl-C   quit
-↑ ↓  j k         another character
+↑ ↓  j k         another {subject}
 Tab  Shift-Tab   another pane, where they take turns
 PgUp PgDn Home   move a list that is too long
 p, space         hold the picture, and go on
 ?                this box
 
-● LIVE   a sample within the last quarter second
+● LIVE   a {sample} within the last quarter second
 ◐ STALE  none for longer than that
-✗ LOST   none for more than two seconds
+✗ LOST   none for more than two seconds{words}"
+    )
+}
+
+const OF_MXTP: &str = "
 ○ WAIT   described, but no sample yet
 
 #        the character's number on the wire; MVN shows one more
 missing  samples that never came, counted in strides
 stride   the sender streams one sample in so many
 quirks   deviations from the specification that were accepted";
+
+const OF_NATNET: &str = ", or not tracked
+◔ PART   some of its bones are not tracked
+○ WAIT   described, but in no frame yet
+
+untracked      frames in which not all of it was tracked
+missing        frames whose number never came
+camera to host from the middle of the exposure to the sending
+host to here   from there to here, ± what its clock may be off";

@@ -3,6 +3,7 @@
 use super::table::{put, slot};
 use super::theme::faint;
 use super::view::Character;
+use crate::plain::cut;
 use posewire_motion::{DVec3, Frame};
 use posewire_mxtp::MessageType;
 use ratatui::buffer::Buffer;
@@ -29,6 +30,36 @@ pub(super) fn draw(buffer: &mut Buffer, area: Rect, character: &Character) {
             row((label, room), center_of_mass(frame), missing_center(character)),
             Style::new(),
         ),
+    ];
+    for (line, (text, style)) in (0..).zip(lines) {
+        put(buffer, slot(area, line, 1, area.width), &text, style);
+    }
+}
+
+/// Draws the first segment of a subject, which is the root of a skeleton and all of a rigid body: metres, the heading, and
+/// the quaternion.
+pub(super) fn draw_segment(buffer: &mut Buffer, area: Rect, subject: &Character) {
+    let Some(segment) = subject.subject.skeleton.segments.first() else {
+        return;
+    };
+    let Some(frame) = &subject.frame else { return };
+    let room = usize::from(area.width.saturating_sub(NUMBERS)).clamp(ROOM_FOR_NAME.0, ROOM_FOR_NAME.1);
+    let orientation = frame.orientation.first().copied().flatten();
+    let turn = orientation.map_or_else(String::new, |turn| {
+        if room < ROOM_FOR_NAME.1 {
+            return format!(
+                "{:room$}{:7.2}{:7.2}{:7.2}{:7.2}",
+                "wxyz", turn.w, turn.x, turn.y, turn.z
+            );
+        }
+        let label = "quaternion wxyz";
+        format!("{label:room$}{:8.3}{:8.3}{:8.3}{:8.3}", turn.w, turn.x, turn.y, turn.z)
+    });
+    let name = cut(&segment.name, room);
+    let lines = [
+        (format!("{:room$}{:>8}{:>8}{:>8} m", "", "x", "y", "z"), faint()),
+        (row((&name, room), pelvis(frame), "not tracked"), Style::new()),
+        (turn, Style::new()),
     ];
     for (line, (text, style)) in (0..).zip(lines) {
         put(buffer, slot(area, line, 1, area.width), &text, style);
@@ -89,4 +120,7 @@ fn missing_center(character: &Character) -> &'static str {
     }
 }
 
+/// The columns that a segment's numbers take, the unit included.
+const NUMBERS: u16 = 30;
+const ROOM_FOR_NAME: (usize, usize) = (5, 15);
 const ROOM_FOR_LONG_LABEL: u16 = 43;

@@ -1,12 +1,15 @@
 //! What is wrong or unusual, and what to do about it, a line for each.
 
+use super::super::protocol::Protocol;
 use super::table::{put, slot, width};
 use super::theme::{Theme, faint};
-use super::view::{Character, State, TypeRow, View};
-use posewire_mxtp::Quirk;
+use super::view::{Character, Server, State, TypeRow, View};
+use crate::plain::plural;
+use posewire::stats::Quirk;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// Something that is wrong or unusual.
@@ -33,9 +36,19 @@ pub(super) enum Weight {
 /// The problems of the stream and of the selected character, the worst first.
 pub(super) fn of(view: &View, selected: &Character) -> Vec<Problem> {
     let mut problems = of_stream(view);
-    problems.extend(of_types(&selected.types));
+    if let Some(server) = &view.server {
+        let frames = std::slice::from_ref(&server.frames);
+        problems.extend(of_server(view, server));
+        problems.extend(of_types(frames, view.protocol));
+        problems.extend(quirks(frames));
+    }
+    problems.extend(of_types(&selected.types, view.protocol));
     problems.extend(untracked(selected));
     problems.extend(quirks(&selected.types));
+    problems.extend(view.remarks.iter().map(|text| Problem {
+        weight: Weight::Note,
+        text: text.clone(),
+    }));
     problems.sort_by_key(|problem| problem.weight);
     problems
 }
@@ -74,7 +87,7 @@ fn of_stream(view: &View) -> Vec<Problem> {
         .map(|character| character.age)
         .min()
         .filter(|age| age.as_secs() >= 3);
-    let last = troubles.last_malformed.as_deref().unwrap_or("not MXTP");
+    let last = troubles.last_malformed.as_deref().unwrap_or("of no known kind");
     let all = [
         quiet.map(|age| {
             format!(
@@ -106,45 +119,48 @@ fn of_stream(view: &View) -> Vec<Problem> {
         .collect()
 }
 
-fn of_types(types: &[TypeRow]) -> Vec<Problem> {
+/// What is wrong with the server, and which of its subjects are lost.
+fn of_server(view: &View, server: &Server) -> Vec<Problem> {
+    let says = &server.says;
+    let gone = (!says.connected && !says.name.is_empty())
+        .then(|| "the server does not answer any more, and is called until it does".to_owned());
+    let lost = view
+        .characters
+        .iter()
+        .filter(|subject| subject.comes() && subject.state() == State::Lost);
+    let lost: Vec<_> = lost.map(|subject| subject.subject.name.as_str()).collect();
+    let untracked = (!lost.is_empty()).then(|| format!("not tracked now: {}", lost.join(", ")));
+    let left_out = counted(says.left_out, |count| {
+        format!("{count} bodies or bones in frames are in no description, and were left out")
+    });
+    let bad = [gone, untracked].into_iter().flatten().map(|text| (Weight::Bad, text));
+    let odd = left_out.map(|text| (Weight::Odd, text));
+    bad.chain(odd).map(|(weight, text)| Problem { weight, text }).collect()
+}
+
+fn of_types(types: &[TypeRow], protocol: Protocol) -> Vec<Problem> {
     use Weight::{Bad, Note, Odd};
+    let [lost, unread, again, begun] = match protocol {
+        Protocol::Mxtp => OF_MXTP,
+        Protocol::NatNet => OF_NATNET,
+    };
     let kinds: [(Weight, &str, Count, &str); 7] = [
-        (
-            Bad,
-            "missing",
-            |row| row.missing,
-            "lost on the way or never sent; prefer a cable to Wi-Fi, and a fixed rate in MVN",
-        ),
+        (Bad, "missing", |row| row.missing, lost),
         (
             Bad,
             "incomplete",
             |row| row.incomplete,
             "a part of a split sample was lost on the way",
         ),
-        (
-            Bad,
-            "malformed",
-            |row| row.malformed,
-            "could not be read: posewire explain shows what is wrong with the bytes",
-        ),
-        (
-            Odd,
-            "duplicate",
-            |row| row.duplicate,
-            "came twice: does the sender stream here over two ways?",
-        ),
+        (Bad, "malformed", |row| row.malformed, unread),
+        (Odd, "duplicate", |row| row.duplicate, again),
         (
             Odd,
             "late",
             |row| row.late,
             "overtaken on the way, and used all the same",
         ),
-        (
-            Odd,
-            "reset",
-            |row| row.reset,
-            "the sample counter began anew: a new session, or a recording wound back",
-        ),
+        (Odd, "reset", |row| row.reset, begun),
         (
             Note,
             "stride",
@@ -176,7 +192,8 @@ fn untracked(selected: &Character) -> Option<Problem> {
         .zip(&frame.position)
         .filter(|(_, at)| at.is_none())
         .collect();
-    if lost.is_empty() {
+    // What is lost altogether is told of by its name.
+    if lost.is_empty() || selected.state() == State::Lost {
         return None;
     }
     let names: Vec<_> = lost.iter().map(|(segment, _)| segment.name.as_str()).collect();
@@ -192,8 +209,13 @@ fn untracked(selected: &Character) -> Option<Problem> {
     })
 }
 
+fn found(row: &TypeRow) -> impl Iterator<Item = Quirk> {
+    row.quirks.iter().map(|(quirk, _)| *quirk)
+}
+
 fn quirks(types: &[TypeRow]) -> impl Iterator<Item = Problem> {
-    Quirk::ALL.into_iter().filter_map(|quirk| {
+    let all: BTreeSet<Quirk> = types.iter().flat_map(found).collect();
+    all.into_iter().filter_map(|quirk| {
         let of = |row: &TypeRow| {
             row.quirks
                 .iter()
@@ -210,12 +232,16 @@ fn quirks(types: &[TypeRow]) -> impl Iterator<Item = Problem> {
     })
 }
 
-/// Counts by type, as "12 of type 02, 3 of 20".
+/// Counts by type, as "12 of type 02, 3 of 20", or "12 frames" of a server.
 fn listed<'a>(counts: impl Iterator<Item = (&'a TypeRow, u64)>) -> String {
     let mut text = String::new();
     for (row, count) in counts {
+        if row.kind.message_type().is_none() {
+            _ = write!(text, "{}", plural(count, "frame"));
+            continue;
+        }
         let (between, of) = if text.is_empty() { ("", "of type") } else { (", ", "of") };
-        _ = write!(text, "{between}{count} {of} {:02}", row.message_type.number());
+        _ = write!(text, "{between}{count} {of} {}", row.kind);
     }
     text
 }
@@ -223,6 +249,22 @@ fn listed<'a>(counts: impl Iterator<Item = (&'a TypeRow, u64)>) -> String {
 fn counted(count: u64, text: impl FnOnce(u64) -> String) -> Option<String> {
     (count > 0).then(|| text(count))
 }
+
+/// Why something is missing, malformed, duplicate, reset.
+type Reasons = [&'static str; 4];
+
+const OF_MXTP: Reasons = [
+    "lost on the way or never sent; prefer a cable to Wi-Fi, and a fixed rate in MVN",
+    "could not be read: posewire explain shows what is wrong with the bytes",
+    "came twice: does the sender stream here over two ways?",
+    "the sample counter began anew: a new session, or a recording wound back",
+];
+const OF_NATNET: Reasons = [
+    "lost on the way or never sent; prefer a cable to Wi-Fi, and stream fewer kinds of data",
+    "could not be read: another version may help, as in ?version=3.1",
+    "came twice, or with a number that was there before",
+    "the frame number jumped: a new session, or a recording wound back",
+];
 
 /// A mark for the first line of a problem and none for the others.
 fn marked<'a>(problem: &'a Problem, lines: &'a [String]) -> impl Iterator<Item = (Option<Weight>, &'a str)> {
@@ -281,7 +323,7 @@ fn cut(text: &str, room: u16) -> String {
 }
 
 /// Breaks a text between words into lines of at most `room` characters, if its words are not longer.
-fn wrap(text: &str, room: usize) -> Vec<String> {
+pub(super) fn wrap(text: &str, room: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {
         let line = lines
@@ -310,7 +352,7 @@ mod tests {
         assert_eq!(problems[0].weight, Weight::Bad);
         let said = |part: &str| problems.iter().any(|problem| problem.text.contains(part));
         assert!(said("missing 12 of type 02"));
-        assert!(said(Quirk::ItemCount.meaning()));
+        assert!(said(posewire_mxtp::Quirk::ItemCount.meaning()));
         assert!(said("one sample in 4"));
     }
 

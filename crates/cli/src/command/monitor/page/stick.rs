@@ -7,6 +7,10 @@ use posewire_motion::{DQuat, DVec3, Frame, Segment};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Stick {
     pub(super) bones: Vec<[DVec3; 2]>,
+    /// The ends of the axes x, y and z of a body without bones.
+    pub(super) axes: Vec<DVec3>,
+    /// Markers.
+    pub(super) dots: Vec<DVec3>,
     /// The middle of the head.
     pub(super) head: Option<DVec3>,
     /// The radius of the head.
@@ -30,10 +34,14 @@ impl Stick {
             stick.bones.extend(body.tip(place));
         }
         stick.head = body.head(stick.head_radius);
-        if stick.bones.is_empty() {
+        let is_single = frame.subject.skeleton.segments.len() == 1;
+        if stick.bones.is_empty() || is_single {
             stick.bones = body.axes();
+            stick.axes = stick.bones.iter().take(3).map(|[_, end]| *end).collect();
         }
-        if stick.bones.is_empty() {
+        let markers = frame.markers.iter().filter_map(|marker| marker.position);
+        stick.dots = markers.filter_map(|at| body.seen(at)).collect();
+        if stick.bones.is_empty() && stick.dots.is_empty() {
             return None;
         }
         stick.frame(&body);
@@ -43,7 +51,14 @@ impl Stick {
     /// Settles what to show. Widths go in steps, so that the figure does not breathe with every stride.
     fn frame(&mut self, body: &Body) {
         let heads = self.head.map(|head| [head, head + DVec3::Z * self.head_radius]);
-        let points = || self.bones.iter().copied().chain(heads).flatten();
+        let points = || {
+            self.bones
+                .iter()
+                .copied()
+                .chain(heads)
+                .flatten()
+                .chain(self.dots.iter().copied())
+        };
         let lowest = points().map(|point| point.z).fold(f64::INFINITY, f64::min);
         let highest = points().map(|point| point.z).fold(f64::NEG_INFINITY, f64::max);
         let is_body = self.bones.len() >= SMALLEST_BODY;
@@ -68,19 +83,22 @@ impl Stick {
 /// A sample turned so that the pelvis faces along X.
 struct Body<'a> {
     frame: &'a Frame,
-    /// The first position that is tracked: that of the pelvis, if it is.
+    /// The first position that is tracked, that of the pelvis if it is; the middle of the markers where there is no other.
     center: DVec3,
     back: DQuat,
 }
 
 impl<'a> Body<'a> {
     fn new(frame: &'a Frame) -> Option<Self> {
-        let tracked = frame.position.iter().flatten().find(|position| position.is_finite())?;
-        let back = DQuat::from_rotation_z(-heading(frame).unwrap_or(0.0));
+        let tracked = frame.position.iter().flatten().find(|position| position.is_finite());
+        let center = tracked.copied().or_else(|| middle(frame))?;
+        // A single body is seen as it is turned.
+        let turns = frame.subject.skeleton.segments.len() > 1;
+        let heading = heading(frame).filter(|_| turns);
         Some(Self {
             frame,
-            center: *tracked,
-            back,
+            center,
+            back: DQuat::from_rotation_z(-heading.unwrap_or(0.0)),
         })
     }
 
@@ -157,6 +175,17 @@ impl<'a> Body<'a> {
         };
         (0..self.frame.position.len()).filter_map(ends).flatten().collect()
     }
+}
+
+/// The middle of the box that holds a frame's markers.
+fn middle(frame: &Frame) -> Option<DVec3> {
+    let markers = frame.markers.iter().filter_map(|marker| marker.position);
+    let near = markers.filter(|at| at.is_finite() && at.abs().max_element() < FARTHEST);
+    let (low, high) = near.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), at| {
+        (low.min(at), high.max(at))
+    });
+    let middle = (low + high) / 2.0;
+    middle.is_finite().then_some(middle)
 }
 
 /// Up to the next step of 0.25 m.

@@ -48,7 +48,7 @@ impl Theme {
         match state {
             State::Waiting => faint(),
             State::Live => self.good(),
-            State::Stale => self.warn(),
+            State::Stale | State::Partial => self.warn(),
             State::Lost => self.bad(),
         }
     }
@@ -66,6 +66,14 @@ impl Theme {
     /// seen on every background.
     pub(super) fn line(self, color: Option<Rgb>) -> Color {
         self.own(color.filter(|color| VISIBLE.contains(&lightness(*color))))
+    }
+
+    /// Markers, to be told from bones.
+    pub(super) fn marker(self) -> Color {
+        match self {
+            Self::Plain => Color::Reset,
+            _ => Color::Cyan,
+        }
     }
 
     fn ink(self, color: Color) -> Style {

@@ -6,6 +6,7 @@ use super::table::{Column, Table, put, slot};
 use super::text;
 use super::theme::{Theme, faint};
 use super::view::{Character, TypeRow};
+use posewire::stats::DatagramKind;
 use posewire_mxtp::MessageType;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -44,6 +45,21 @@ fn draw_types(buffer: &mut Buffer, area: Rect, types: &[TypeRow], theme: Theme) 
     }
 }
 
+/// Draws the titles and the numbers of a server's frames.
+pub(super) fn draw_frames(buffer: &mut Buffer, area: Rect, row: &TypeRow, theme: Theme) {
+    let area = Rect {
+        x: area.x + u16::from(area.width > 0),
+        width: area.width.saturating_sub(1),
+        ..area
+    };
+    let columns = OF_FRAMES.map(|column| COLUMNS[column]);
+    let table = Table::fit(&columns, area.width);
+    table.head(buffer, area, 0);
+    table.row(buffer, area, 1, |column, width| {
+        cell(row, OF_FRAMES[column], width, theme)
+    });
+}
+
 fn cell(row: &TypeRow, column: usize, width: usize, theme: Theme) -> (String, Style) {
     let quirks = row.quirks.iter().map(|(_, count)| count).sum();
     let counted = |count: u64, some: Style| {
@@ -52,8 +68,8 @@ fn cell(row: &TypeRow, column: usize, width: usize, theme: Theme) -> (String, St
     };
     let plain = |text: String| (text, Style::new());
     match column {
-        0 => plain(format!("{:02}", row.message_type.number())),
-        1 => plain(name(row.message_type, width).to_owned()),
+        0 => plain(row.kind.to_string()),
+        1 => plain(name(row.kind, width).to_owned()),
         2 if row.rate_hz == 0.0 => ("0.0".to_owned(), faint()),
         2 => plain(text::rate(row.rate_hz)),
         3 => counted(row.received, Style::new()),
@@ -72,11 +88,11 @@ fn cell(row: &TypeRow, column: usize, width: usize, theme: Theme) -> (String, St
 }
 
 /// The type's name, a short one where there is little room.
-fn name(message_type: MessageType, width: usize) -> &'static str {
-    let long = message_type.name();
-    if long.len() <= width {
+fn name(kind: DatagramKind, width: usize) -> &'static str {
+    let long = kind.name();
+    let Some(message_type) = kind.message_type().filter(|_| long.len() > width) else {
         return long;
-    }
+    };
     match message_type {
         MessageType::EULER => "pose, Euler",
         MessageType::QUATERNION => "pose, quat.",
@@ -108,6 +124,9 @@ const COLUMNS: [Column; 14] = [
     Column::number(("maxms", "max ms"), (5, 6), 6),
 ];
 
+/// The columns that say something of a server's frames.
+const OF_FRAMES: [usize; 11] = [2, 3, 4, 5, 6, 7, 9, 10, 11, 12, 13];
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -116,7 +135,7 @@ mod tests {
     fn every_name_fits_its_narrowest_column() {
         let all = (0..100).filter_map(MessageType::new);
         for message_type in all {
-            assert!(name(message_type, 12).len() <= 12, "{message_type}");
+            assert!(name(message_type.into(), 12).len() <= 12, "{message_type}");
         }
     }
 }

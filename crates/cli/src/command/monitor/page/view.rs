@@ -1,27 +1,43 @@
 //! What the page shows at one moment, as plain data.
 
+use super::super::protocol::Protocol;
 use posewire::histogram::Summary;
+use posewire::stats::{DatagramKind, Quirk, ServerStatistics, Tracking};
 use posewire_motion::{Frame, Subject, Timecode};
-use posewire_mxtp::{MessageType, Quirk};
+use posewire_mxtp::MessageType;
 use std::sync::Arc;
 use std::time::Duration;
 
 /// What the page shows at one moment.
 #[derive(Clone, Debug, Default)]
 pub(super) struct View {
+    pub(super) protocol: Protocol,
     pub(super) listening: String,
+    /// What is said until something comes.
+    pub(super) opening: String,
     pub(super) elapsed: Duration,
     pub(super) datagrams: u64,
     pub(super) datagrams_per_second: f64,
     pub(super) bytes_per_second: f64,
     /// What went wrong with the stream as a whole.
     pub(super) troubles: Troubles,
-    /// The last word of the source, as "connected to ...".
+    /// The last word of the source about its connection, as "connected to ...".
     pub(super) notice: Option<String>,
+    /// What the source has remarked lately.
+    pub(super) remarks: Vec<String>,
     /// What to check, when nothing has come for a while.
     pub(super) hint: Option<String>,
+    /// The server, for protocols that have one.
+    pub(super) server: Option<Server>,
     /// By number.
     pub(super) characters: Vec<Character>,
+}
+
+/// A server and its frames.
+#[derive(Clone, Debug)]
+pub(super) struct Server {
+    pub(super) says: ServerStatistics,
+    pub(super) frames: TypeRow,
 }
 
 /// What went wrong with a stream as a whole.
@@ -45,12 +61,14 @@ pub(super) struct Character {
     pub(super) timecode: Option<Timecode>,
     /// By number.
     pub(super) types: Vec<TypeRow>,
+    /// How much of it is tracked, where the protocol says.
+    pub(super) tracking: Option<Tracking>,
 }
 
 /// One datagram type of a character.
 #[derive(Clone, Debug)]
 pub(super) struct TypeRow {
-    pub(super) message_type: MessageType,
+    pub(super) kind: DatagramKind,
     pub(super) rate_hz: f64,
     pub(super) stride: Option<u32>,
     pub(super) received: u64,
@@ -70,6 +88,8 @@ pub(super) enum State {
     /// Heard of, but no sample of it has come.
     Waiting,
     Live,
+    /// It comes, but not all of it is tracked.
+    Partial,
     Stale,
     Lost,
 }
@@ -93,8 +113,19 @@ impl Character {
             None => State::Waiting,
             Some(_) if self.age > LOST_AFTER => State::Lost,
             Some(_) if self.age > STALE_AFTER => State::Stale,
+            Some(frame) if self.tracking.is_some() => tracked_state(frame),
             Some(_) => State::Live,
         }
+    }
+
+    /// Whether it still comes, tracked or not.
+    pub(super) fn comes(&self) -> bool {
+        self.frame.is_some() && self.age <= STALE_AFTER
+    }
+
+    /// How many of its segments are tracked in its newest sample.
+    pub(super) fn tracked(&self) -> usize {
+        self.frame.as_deref().map_or(0, tracked)
     }
 
     /// The type that comes most often: its rate and stride are the character's.
@@ -105,7 +136,19 @@ impl Character {
     }
 
     pub(super) fn has_type(&self, message_type: MessageType) -> bool {
-        self.types.iter().any(|row| row.message_type == message_type)
+        self.types.iter().any(|row| row.kind == message_type.into())
+    }
+}
+
+fn tracked(frame: &Frame) -> usize {
+    frame.position.iter().flatten().count()
+}
+
+fn tracked_state(frame: &Frame) -> State {
+    match tracked(frame) {
+        0 => State::Lost,
+        some if some < frame.subject.skeleton.segments.len() => State::Partial,
+        _ => State::Live,
     }
 }
 

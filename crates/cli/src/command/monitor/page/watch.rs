@@ -2,8 +2,8 @@
 
 use super::super::board::Board;
 use super::super::silence::QUIET_AFTER;
-use super::view::{Character, Troubles, TypeRow, View};
-use posewire::stats::{Statistics, SubjectStatistics, TypeStatistics};
+use super::view::{Character, Server, Troubles, TypeRow, View};
+use posewire::stats::{ServerStatistics, Statistics, StreamStatistics, SubjectStatistics};
 use posewire_motion::Frame;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -17,6 +17,8 @@ pub(super) struct Watch {
     statistics: Option<Arc<Statistics>>,
     /// Datagrams and bytes a second between the last two statistics.
     speed: (f64, f64),
+    /// What the source has remarked, and when that was first seen here.
+    remarks: Vec<(Arc<str>, Instant)>,
 }
 
 impl Watch {
@@ -26,6 +28,7 @@ impl Watch {
             seen: BTreeMap::new(),
             statistics: None,
             speed: (0.0, 0.0),
+            remarks: Vec::new(),
         }
     }
 
@@ -35,7 +38,10 @@ impl Watch {
         self.note_frames(board.frames(), now);
         let elapsed = now.saturating_duration_since(self.opened);
         let mut view = View {
+            protocol: board.protocol(),
             listening: board.listening().to_owned(),
+            opening: board.opening(),
+            remarks: self.remarks(board, now),
             elapsed,
             notice: board.notice().map(|notice| notice.to_string()),
             hint: (elapsed >= QUIET_AFTER && board.heard() == 0).then(|| board.hint()),
@@ -47,8 +53,26 @@ impl Watch {
         if let Some(statistics) = &self.statistics {
             view.datagrams = statistics.datagrams;
             view.troubles = troubles(statistics);
+            view.server = statistics.server.as_deref().map(server);
         }
         view
+    }
+
+    /// The remarks that are new, or all as long as nothing has come.
+    fn remarks(&mut self, board: &Board, now: Instant) -> Vec<String> {
+        let newest = board.remarks();
+        self.remarks
+            .retain(|(known, _)| newest.iter().any(|one| Arc::ptr_eq(one, known)));
+        for remark in newest {
+            if !self.remarks.iter().any(|(known, _)| Arc::ptr_eq(known, &remark)) {
+                self.remarks.push((remark, now));
+            }
+        }
+        let shown = self.remarks.iter().filter(|(_, since)| {
+            let is_new = now.saturating_duration_since(*since) < REMARK_FOR;
+            is_new || self.seen.is_empty()
+        });
+        shown.map(|(text, _)| text.to_string()).collect()
     }
 
     fn note_statistics(&mut self, newest: Option<Arc<Statistics>>) {
@@ -101,7 +125,8 @@ fn described_character(of_subject: &SubjectStatistics) -> Character {
         frame: None,
         age: Duration::ZERO,
         timecode: of_subject.timecode,
-        types: of_subject.types.iter().map(type_row).collect(),
+        types: of_subject.streams.iter().map(type_row).collect(),
+        tracking: of_subject.tracking,
     }
 }
 
@@ -112,14 +137,22 @@ fn bare_character(frame: &Arc<Frame>) -> Character {
         age: Duration::ZERO,
         timecode: None,
         types: Vec::new(),
+        tracking: None,
     }
 }
 
-fn type_row(of_type: &TypeStatistics) -> TypeRow {
-    let counters = &of_type.counters;
+fn server(of: &ServerStatistics) -> Server {
+    Server {
+        says: of.clone(),
+        frames: type_row(&of.frames),
+    }
+}
+
+fn type_row(stream: &StreamStatistics) -> TypeRow {
+    let counters = &stream.counters;
     TypeRow {
-        message_type: of_type.message_type,
-        rate_hz: of_type.rate_hz,
+        kind: stream.kind,
+        rate_hz: stream.rate_hz,
         stride: counters.stride,
         received: counters.received,
         missing: counters.missing,
@@ -128,8 +161,8 @@ fn type_row(of_type: &TypeStatistics) -> TypeRow {
         reset: counters.reset,
         incomplete: counters.incomplete,
         malformed: counters.malformed,
-        quirks: counters.quirks.iter().collect(),
-        interval: of_type.interval,
+        quirks: counters.quirks.clone(),
+        interval: stream.interval,
     }
 }
 
@@ -143,6 +176,9 @@ fn troubles(statistics: &Statistics) -> Troubles {
     }
 }
 
+/// How long a remark stands on the page.
+const REMARK_FOR: Duration = Duration::from_secs(20);
+
 #[cfg(test)]
 mod tests {
     use super::super::example;
@@ -150,7 +186,6 @@ mod tests {
     use super::*;
     use posewire::stop::Stop;
     use posewire::{Item, Sink};
-    use posewire_motion::Stamp;
 
     fn board() -> Board {
         Board::new(&"mxtp://127.0.0.1:9763".parse().unwrap(), None, Stop::new())
@@ -163,17 +198,10 @@ mod tests {
 
     fn statistics(seconds: u64, datagrams: u64, bytes: u64) -> Item {
         Item::Statistics(Arc::new(Statistics {
-            at: Stamp(0),
             elapsed: Duration::from_secs(seconds),
-            ended: false,
             datagrams,
             bytes,
-            malformed: 0,
-            last_malformed: None,
-            skipped_bytes: 0,
-            kernel_dropped: 0,
-            characters_refused: 0,
-            subjects: Vec::new(),
+            ..Statistics::default()
         }))
     }
 

@@ -4,7 +4,7 @@ use super::News;
 use crate::clock;
 use crate::net::{self, Backoff, TcpConnection, TcpIncoming};
 use crate::queue::Producer;
-use crate::source::mxtp::intake::{DRAIN_LIMIT, TICK};
+use crate::source::report::{DRAIN_LIMIT, TICK};
 use crate::stop::Stop;
 use crate::{Error, Result};
 use std::net::SocketAddr;

@@ -10,7 +10,7 @@ use ratatui::backend::TestBackend;
 use std::sync::Arc;
 use std::time::Duration;
 
-fn picture((width, height): (u16, u16), view: &View, controls: &Controls) -> String {
+pub(super) fn picture((width, height): (u16, u16), view: &View, controls: &Controls) -> String {
     let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
     terminal
         .draw(|frame| _ = draw(frame, view, controls, Theme::True))
@@ -21,7 +21,7 @@ fn picture((width, height): (u16, u16), view: &View, controls: &Controls) -> Str
     lines.collect::<Vec<_>>().join("\n")
 }
 
-fn with(pane: Pane) -> Controls {
+pub(super) fn with(pane: Pane) -> Controls {
     Controls {
         pane,
         ..Controls::default()
@@ -29,7 +29,7 @@ fn with(pane: Pane) -> Controls {
 }
 
 #[track_caller]
-fn assert_shows(picture: &str, parts: &[&str]) {
+pub(super) fn assert_shows(picture: &str, parts: &[&str]) {
     for part in parts {
         assert!(picture.contains(part), "{part:?} is not in\n{picture}");
     }
@@ -37,7 +37,7 @@ fn assert_shows(picture: &str, parts: &[&str]) {
 
 #[test]
 fn a_small_terminal_says_who_is_there_and_what_came() {
-    let picture = picture((80, 24), &example::view(3), &with(Pane::Types));
+    let picture = picture((80, 24), &example::view(3), &with(Pane::Stream));
     assert_shows(
         &picture,
         &[
@@ -69,7 +69,7 @@ fn a_small_terminal_says_who_is_there_and_what_came() {
 #[test]
 fn a_large_terminal_shows_types_angles_and_figure_at_once() {
     for size in [(120, 40), (200, 60)] {
-        let picture = picture(size, &example::view(2), &with(Pane::Types));
+        let picture = picture(size, &example::view(2), &with(Pane::Stream));
         assert_shows(
             &picture,
             &["datagram types", "joint angles", "figure", "problems", "none"],
@@ -135,7 +135,7 @@ fn a_stream_without_positions_says_so() {
         &["No positions in this stream", "type 02"],
     );
     assert_shows(
-        &picture((80, 24), &view, &with(Pane::Angles)),
+        &picture((80, 24), &view, &with(Pane::Details)),
         &["No joint angles in this stream", "type 20"],
     );
 }
@@ -172,7 +172,7 @@ fn a_list_scrolls_to_its_end_and_no_further() {
     let view = example::view(1);
     let controls = Controls {
         scroll: 500,
-        ..with(Pane::Angles)
+        ..with(Pane::Details)
     };
     assert_shows(&picture((60, 20), &view, &controls), &["Vertical_T8", "▲"]);
 }
@@ -192,7 +192,7 @@ fn no_size_is_too_small() {
     {
         for view in [&troubled, &silent] {
             for pane in Pane::ALL {
-                let help = pane == Pane::Angles;
+                let help = pane == Pane::Details;
                 picture(size, view, &Controls { help, ..with(pane) });
             }
         }

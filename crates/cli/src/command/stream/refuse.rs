@@ -1,0 +1,77 @@
+//! What cannot be streamed, found before anything is sent.
+
+use crate::cli::{Playback, Revision, Stream};
+use crate::error::Usage;
+use posewire::Source;
+use posewire::endpoint::{Endpoint, Host};
+use posewire::sink::MxtpSinkOptions;
+
+/// A live stream comes as it comes: options that would be ignored are refused.
+pub(super) fn playback(arguments: &Playback) -> Result<(), Usage> {
+    let given = [
+        ("--rate", arguments.rate.is_some()),
+        ("--speed", arguments.speed.to_bits() != 1_f64.to_bits()),
+        ("--loop", arguments.looped),
+        ("--salvage", arguments.salvage),
+    ];
+    match given.iter().find(|(_, is_given)| *is_given) {
+        None => Ok(()),
+        Some((option, _)) => Err(Usage {
+            problem: format!("{option} is for takes and the walker, and the source is a live stream"),
+            help: format!("leave {option} out"),
+        }),
+    }
+}
+
+/// Options of MXTP that no target would heed are refused as well.
+pub(super) fn mxtp_options(arguments: &Stream) -> Result<(), Usage> {
+    let given = [
+        ("--types", arguments.types != Stream::TYPES),
+        ("--character", arguments.character != 0),
+        ("--revision", !matches!(arguments.revision, Revision::N)),
+        ("--split", arguments.split.is_some()),
+    ];
+    match given.iter().find(|(_, is_given)| *is_given) {
+        None => Ok(()),
+        Some((option, _)) => Err(Usage {
+            problem: format!("{option} is for MXTP targets, and there is none"),
+            help: format!("leave {option} out, or name an MXTP target with --to"),
+        }),
+    }
+}
+
+/// Every subject needs a character number that fits into a byte.
+pub(super) fn too_many(source: &Source, options: &MxtpSinkOptions) -> posewire::Result<()> {
+    let last = source
+        .preview()
+        .and_then(|preview| preview.subjects.iter().map(|subject| subject.id).max());
+    let found = u32::from(options.character).saturating_add(last.unwrap_or(0));
+    if found > u32::from(u8::MAX) {
+        return Err(posewire::Error::Character { found });
+    }
+    Ok(())
+}
+
+/// What is received on a port and sent to the same port of this machine comes back for ever.
+pub(super) fn endless(source: &Endpoint, targets: &[Endpoint]) -> Result<(), Usage> {
+    match targets.iter().find(|target| comes_back(source, target)) {
+        None => Ok(()),
+        Some(target) => Err(Usage {
+            problem: format!("what comes in from {source} would be sent to itself, {target}"),
+            help: "name another target with --to".to_owned(),
+        }),
+    }
+}
+
+fn comes_back(source: &Endpoint, target: &Endpoint) -> bool {
+    let is_here = |host: &Host| matches!(host, Host::Address(address) if address.is_loopback());
+    match (source, target) {
+        (Endpoint::MxtpUdp(source), Endpoint::MxtpUdp(target)) => {
+            target.port == source.port && (is_here(&target.host) || target.host == source.host)
+        }
+        (Endpoint::NatNet(source), Endpoint::NatNet(target)) => {
+            target.port == source.port && (is_here(&source.host) || target.host == source.host)
+        }
+        _ => false,
+    }
+}

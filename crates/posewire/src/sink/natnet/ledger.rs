@@ -1,0 +1,149 @@
+//! Who is served, and what became of what was sent.
+
+use crate::net::Sent;
+use crate::sink::{ClientProgress, ClientState, TargetProgress};
+use posewire_natnet::Version;
+use posewire_natnet::command::Sender;
+use std::net::SocketAddr;
+
+/// Who is served, and what became of the frames.
+#[derive(Debug, Default)]
+pub(super) struct Ledger {
+    clients: Vec<ClientProgress>,
+    datagrams: u64,
+    congested: u64,
+    refused: u64,
+    too_large: u64,
+}
+
+impl Ledger {
+    /// Enters a client, or one that comes again.
+    pub(super) fn connected(&mut self, address: SocketAddr, sender: Option<&Sender>, version: Version) {
+        if let Some(known) = self.find(address) {
+            (known.state, known.version) = (ClientState::Connected, version);
+            return;
+        }
+        if self.clients.len() >= MAX_REMEMBERED {
+            let gone = self
+                .clients
+                .iter()
+                .position(|client| client.state != ClientState::Connected);
+            gone.map(|place| self.clients.remove(place));
+        }
+        self.clients.push(ClientProgress {
+            address,
+            name: sender.map(|sender| sender.name.to_string()).unwrap_or_default(),
+            version,
+            state: ClientState::Connected,
+            frames: 0,
+            dropped: 0,
+        });
+    }
+
+    pub(super) fn changed(&mut self, address: SocketAddr, version: Version) {
+        if let Some(client) = self.find(address) {
+            client.version = version;
+        }
+    }
+
+    pub(super) fn left(&mut self, address: SocketAddr, state: ClientState) {
+        if let Some(client) = self.find(address) {
+            client.state = state;
+        }
+    }
+
+    /// Enters what became of one frame for `to`.
+    pub(super) fn count(&mut self, to: SocketAddr, sent: Sent) {
+        let taken = matches!(sent, Sent::Taken);
+        match sent {
+            Sent::Taken => self.datagrams += 1,
+            Sent::NoRoom => self.congested += 1,
+            Sent::Refused => self.refused += 1,
+            // No loss of this side: who has vanished is dropped for its silence.
+            Sent::Nobody => {}
+        }
+        if let Some(client) = self.find(to) {
+            client.frames += u64::from(taken);
+            client.dropped += u64::from(!taken);
+        }
+    }
+
+    /// Enters a frame that no datagram of some version can hold.
+    pub(super) fn count_too_large(&mut self) {
+        self.too_large += 1;
+    }
+
+    /// Whether the system has refused all that was tried so far.
+    pub(super) fn is_refused(&self) -> bool {
+        self.refused > 0 && self.datagrams == 0
+    }
+
+    /// How many clients are there now.
+    pub(super) fn peers(&self) -> usize {
+        let is_there = |client: &&ClientProgress| client.state == ClientState::Connected;
+        self.clients.iter().filter(is_there).count()
+    }
+
+    pub(super) fn progress(&self, endpoint: &str, multicast: bool) -> TargetProgress {
+        TargetProgress {
+            endpoint: endpoint.to_owned(),
+            peers: if multicast { 1 } else { self.peers() },
+            datagrams: self.datagrams,
+            congested: self.congested,
+            failed: self.refused + self.too_large,
+            dropped: 0,
+            clients: self.clients.clone(),
+        }
+    }
+
+    fn find(&mut self, address: SocketAddr) -> Option<&mut ClientProgress> {
+        self.clients.iter_mut().find(|client| client.address == address)
+    }
+}
+
+/// Twice as many clients as a server has at once.
+const MAX_REMEMBERED: usize = 128;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn client(port: u16) -> SocketAddr {
+        ([127, 0, 0, 1], port).into()
+    }
+
+    #[test]
+    fn what_a_client_did_not_get_is_no_loss_when_it_has_vanished() {
+        let mut ledger = Ledger::default();
+        ledger.connected(client(1), None, Version::new(4, 1));
+        for sent in [Sent::Taken, Sent::NoRoom, Sent::Nobody] {
+            ledger.count(client(1), sent);
+        }
+        let progress = ledger.progress("natnet://127.0.0.1", false);
+        assert_eq!((progress.datagrams, progress.congested, progress.failed), (1, 1, 0));
+        assert_eq!((progress.clients[0].frames, progress.clients[0].dropped), (1, 2));
+    }
+
+    #[test]
+    fn a_frame_that_is_too_large_fails_and_is_not_the_networks_fault() {
+        let mut ledger = Ledger::default();
+        ledger.count_too_large();
+        assert!(!ledger.is_refused());
+        ledger.count(client(1), Sent::Refused);
+        assert!(ledger.is_refused());
+        assert_eq!(ledger.progress("", true).failed, 2);
+    }
+
+    #[test]
+    fn those_who_have_left_are_remembered_within_bounds() {
+        let mut ledger = Ledger::default();
+        for port in 1..=1000 {
+            ledger.connected(client(port), None, Version::new(3, 1));
+            ledger.left(client(port), ClientState::Left);
+        }
+        ledger.connected(client(1000), None, Version::new(4, 1));
+        let progress = ledger.progress("", false);
+        assert_eq!((progress.peers, progress.clients.len()), (1, MAX_REMEMBERED));
+        assert_eq!(progress.clients[MAX_REMEMBERED - 1].version, Version::new(4, 1));
+    }
+}

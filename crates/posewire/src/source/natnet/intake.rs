@@ -1,0 +1,339 @@
+//! From datagrams to items.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use posewire_motion::{Stamp, Subject};
+use posewire_natnet::client::{Answer, Client, ClientOptions, DataSource, Event, Mode, ReceivedFrame};
+use posewire_natnet::command::ServerInfo;
+use posewire_natnet::model::Model;
+use posewire_natnet::{MessageId, Output, Quirks, Transmit};
+use std::net::SocketAddr;
+
+use super::advice;
+use super::naming::{Arrived, Naming};
+use super::senders::Senders;
+use super::silence::{REMARK_AFTER, Silence};
+use super::sockets::Sockets;
+use crate::clock::Clock;
+use crate::endpoint::NatNetAddress;
+use crate::net::Received;
+use crate::session::Outlet;
+use crate::source::report::Reports;
+use crate::stats::{Link, NatNetTally};
+use crate::{Error, Item, Notice};
+
+/// Drives the client, counts what it tells, and hands it on.
+pub(super) struct Intake<'a> {
+    /// What is to be sent from the command socket.
+    pub(super) outbox: Vec<Transmit>,
+    address: NatNetAddress,
+    client: Client,
+    naming: Naming,
+    tally: NatNetTally,
+    senders: Senders,
+    server: SocketAddr,
+    clock: Clock,
+    /// How the server was last called.
+    peer: String,
+    silence: Silence,
+    left_out: u64,
+    begun: Instant,
+    /// What was last said of a server that has never answered.
+    of_no_answer: Option<String>,
+    /// What was last said of what the server describes.
+    of_model: Option<String>,
+    reports: Reports,
+    outlet: &'a mut Outlet,
+}
+
+impl<'a> Intake<'a> {
+    pub(super) fn new(outlet: &'a mut Outlet, address: NatNetAddress, server: SocketAddr) -> Self {
+        let clock = Clock::new();
+        let options = client_options(&address, server);
+        let mut intake = Self {
+            outbox: Vec::new(),
+            client: Client::new(clock.steady(), options),
+            naming: Naming::new(address.settings()),
+            tally: NatNetTally::new(clock.now()),
+            senders: Senders::new(address.mode, server.ip()),
+            server,
+            clock,
+            peer: server.to_string(),
+            silence: Silence::default(),
+            left_out: 0,
+            begun: Instant::now(),
+            of_no_answer: None,
+            of_model: None,
+            reports: Reports::new(),
+            outlet,
+            address,
+        };
+        intake.settle(clock.now());
+        intake
+    }
+
+    /// Takes one datagram as it arrived; whether it was a frame.
+    pub(super) fn datagram(&mut self, received: Received<'_>) -> bool {
+        let is_frame = received.bytes.first_chunk() == Some(&MessageId::FRAME.0.to_le_bytes());
+        let from = self.senders.known_as(received.from);
+        self.tally.datagram(received.bytes.len());
+        if is_frame && !self.is_from_server(from) {
+            return false;
+        }
+        // What was read later can have come earlier: an echo waits in one socket while frames are waited for on the other, and
+        // is no slower for that.
+        let arrival = self.clock.arrival(received.stamp);
+        self.client.handle(arrival, from, received.bytes);
+        self.settle(received.stamp);
+        is_frame
+    }
+
+    /// Tells the sinks something about the connection.
+    pub(super) fn notice(&mut self, notice: Notice) {
+        self.outlet.push(Item::Notice(notice));
+    }
+
+    /// To be called after each batch: does what is due and hands everything to the sinks. `false` when no sink is left.
+    pub(super) fn tick(&mut self, sockets: &Sockets) -> bool {
+        let now = self.clock.steady();
+        if self.client.timeout().is_some_and(|due| due <= now) {
+            self.client.handle_timeout(now);
+            self.settle(self.clock.now());
+        }
+        self.release(false);
+        self.remark_on_silence(sockets);
+        self.remark_on_no_answer();
+        self.look_for_left_out();
+        if self.reports.is_due() {
+            self.report(sockets, false);
+        }
+        self.outlet.flush()
+    }
+
+    /// The data port to listen at, when a server that sends to each client answers and no frame comes.
+    pub(super) fn misses_frames(&mut self) -> Option<u16> {
+        let misses = self.address.mode == Mode::Unicast && self.silence.lasts(LISTEN_AFTER) && !self.silence.listened;
+        if !misses {
+            return None;
+        }
+        self.silence.listened = true;
+        let connection = self.client.server_info()?.connection;
+        let port = connection.map_or(self.address.data_port, |connection| connection.data_port);
+        (port != 0 && connection.is_none_or(|connection| !connection.is_multicast)).then_some(port)
+    }
+
+    /// Keeps in mind why the data port cannot be listened at.
+    pub(super) fn note_taken_port(&mut self, error: Error) {
+        // On this machine it is the server that has it.
+        self.silence.taken = (!self.senders.is_own()).then_some(error);
+    }
+
+    /// Says goodbye to the server.
+    pub(super) fn disconnect(&mut self) {
+        self.client.disconnect();
+        self.settle(self.clock.now());
+    }
+
+    /// The end of the stream: gives what has waited and the last numbers.
+    pub(super) fn finish(mut self, sockets: &Sockets) {
+        self.release(true);
+        self.report(sockets, true);
+        self.outlet.finish();
+    }
+
+    fn is_from_server(&mut self, from: SocketAddr) -> bool {
+        let unanswered = self.tally.is_nameless() && self.begun.elapsed() >= LISTEN_AFTER;
+        let is_waiting = unanswered || self.silence.lasts(LISTEN_AFTER);
+        let Some(adopted) = self.senders.accepts(from.ip(), is_waiting) else {
+            return false;
+        };
+        if adopted {
+            let text = format!("frames come from {}, another address of the server", from.ip());
+            self.notice(Notice::Remark { text });
+        }
+        true
+    }
+
+    /// Takes what the client has to say. What arrived did so at `at`.
+    fn settle(&mut self, at: Stamp) {
+        while let Some(output) = self.client.poll() {
+            match output {
+                Output::Transmit(transmit) => self.outbox.push(transmit),
+                Output::Event(event) => self.heed(event, at),
+            }
+        }
+    }
+
+    fn heed(&mut self, event: Event, at: Stamp) {
+        match event {
+            Event::Connected { server, info } => self.connected(server, info),
+            Event::Version(version) => self.tally.version(version),
+            Event::Model { model, quirks } => self.model(&model, quirks),
+            Event::Frame(frame) => {
+                self.silence.broken();
+                if let Some(frame) = self.naming.hold((frame, at)) {
+                    self.forward(&frame);
+                }
+            }
+            Event::Message(text) => tracing::info!(?text, "the server says"),
+            Event::Answer { request, answer } if request == FRAME_RATE => self.rate(&answer),
+            Event::Lost(reason) => {
+                self.silence = Silence::default();
+                let (peer, reason) = (self.peer.clone(), advice::of_loss(reason).to_owned());
+                self.notice(Notice::Disconnected { peer, reason });
+            }
+            Event::Malformed { id, error } => {
+                let kind = id.map_or_else(String::new, |id| format!("{id}: "));
+                self.tally.malformed(format!("{kind}{error}"));
+            }
+            _ => {}
+        }
+    }
+
+    fn connected(&mut self, server: SocketAddr, info: ServerInfo) {
+        self.peer = advice::named(server, &info);
+        self.notice(Notice::Connected {
+            peer: self.peer.clone(),
+        });
+        if let Some(text) = advice::of_delivery(&self.address, &info) {
+            self.notice(Notice::Remark { text });
+        }
+        self.silence = Silence::begin();
+        self.naming.wait();
+        self.client.request(self.clock.steady(), FRAME_RATE);
+        self.tally.connected(server, info);
+    }
+
+    fn model(&mut self, model: &Model, quirks: Quirks) {
+        self.naming.subjects.describe(model);
+        self.naming.note_model();
+        let subjects = self.naming.all();
+        self.tally.model(model, quirks, &subjects);
+        self.announce_all();
+        let text = advice::of_model(model).filter(|text| self.of_model.as_ref() != Some(text));
+        if let Some(text) = text {
+            self.of_model = Some(text.clone());
+            self.notice(Notice::Remark { text });
+        }
+    }
+
+    fn rate(&mut self, answer: &Answer) {
+        let rate = match answer {
+            Answer::Response(response) => response.as_float().filter(|rate| (1e-3..=1e5).contains(rate)),
+            _ => None,
+        };
+        self.naming.note_rate();
+        if rate.is_some() {
+            self.naming.subjects.set_rate(rate.map(f64::from));
+            self.announce_all();
+        }
+    }
+
+    /// Tells of the subjects, unless more is to be known of them in a moment.
+    fn announce_all(&mut self) {
+        if !self.naming.is_waiting() {
+            for subject in self.naming.all() {
+                self.announce(&subject);
+            }
+        }
+    }
+
+    fn announce(&mut self, subject: &Arc<Subject>) {
+        if self.naming.is_news(subject) {
+            self.tally.subject(subject);
+            self.outlet.push(Item::Subject(Arc::clone(subject)));
+        }
+    }
+
+    /// Hands on what has waited, when there is nothing more to wait for.
+    fn release(&mut self, end: bool) {
+        if let Some(frames) = self.naming.release(end) {
+            self.announce_all();
+            for frame in &frames {
+                self.forward(frame);
+            }
+        }
+    }
+
+    fn forward(&mut self, (received, at): &Arrived) {
+        let ReceivedFrame { frame, .. } = received;
+        self.tally.frame(received, *at, self.client.clock(self.clock.steady()));
+        let mut samples = self.naming.read(frame);
+        for mut sample in samples.drain(..) {
+            self.announce(&sample.subject);
+            self.tally.sample(&sample);
+            sample.received = Some(*at);
+            let frame = Arc::new(sample);
+            self.outlet.push(Item::Frame { frame, due: None });
+        }
+        self.naming.reuse(samples);
+    }
+
+    /// Bones that no description has, or too many subjects.
+    fn look_for_left_out(&mut self) {
+        let left_out = self.naming.subjects.left_out();
+        if left_out > 0 && self.left_out == 0 {
+            let text = "left out: bones that the server does not describe, or subjects beyond 2048".to_owned();
+            self.notice(Notice::Remark { text });
+            let now = self.clock.steady();
+            self.client.request_model(now);
+            self.settle(self.clock.now());
+        }
+        self.left_out = left_out;
+    }
+
+    fn remark_on_silence(&mut self, sockets: &Sockets) {
+        if !self.silence.is_to_be_told() {
+            return;
+        }
+        let text = self.silence.text(sockets);
+        self.notice(Notice::Remark { text });
+    }
+
+    /// Says once each what a server is like that has never answered.
+    fn remark_on_no_answer(&mut self) {
+        if !self.tally.is_nameless() || self.begun.elapsed() < REMARK_AFTER {
+            return;
+        }
+        let counts = self.client.counts();
+        let text = match (self.client.version(), counts.early, counts.received) {
+            (None, 1.., _) => advice::of_unread_frames(),
+            (_, 0, 0) => advice::of_nobody(self.server),
+            _ => return,
+        };
+        if self.of_no_answer.as_ref() != Some(&text) {
+            self.of_no_answer = Some(text.clone());
+            self.notice(Notice::Remark { text });
+        }
+    }
+
+    fn report(&mut self, sockets: &Sockets, ended: bool) {
+        let link = Link {
+            server: self.server,
+            mode: self.address.mode,
+            group: sockets.joined().map(|(group, _)| group),
+            interface: Some(sockets.local().to_string()),
+            kernel_dropped: sockets.kernel_dropped(),
+            now: self.clock.now(),
+            steady: self.clock.steady(),
+        };
+        let left_out = self.naming.subjects.left_out();
+        let statistics = self.tally.report(Some(&self.client), left_out, &link, ended);
+        self.outlet.push(Item::Statistics(Arc::new(statistics)));
+    }
+}
+
+fn client_options(address: &NatNetAddress, server: SocketAddr) -> ClientOptions {
+    let mut options = ClientOptions::new(server, address.mode);
+    options.version = address.version;
+    // Which of the addresses that send to a group is the server's is for `Senders` to say.
+    options.data_source = match address.mode {
+        Mode::Unicast => DataSource::Server,
+        Mode::Multicast => DataSource::Any,
+    };
+    options
+}
+
+const FRAME_RATE: &str = "FrameRate";
+const LISTEN_AFTER: Duration = Duration::from_secs(1);
