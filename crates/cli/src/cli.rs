@@ -220,7 +220,9 @@ pub(crate) struct Inspect {
 
 /// Write takes in the formats of other tools, or as MVNX again.
 #[derive(Debug, Args)]
-#[command(after_help = "\
+#[command(
+    override_usage = "posewire convert [OPTIONS] <IN>... <OUT>",
+    after_help = "\
 Formats, and the axes and unit that their tools expect:
   mvnx, mvnx.gz   MVN's own: Z up, m
   csv             tables with the names of MVN's Excel export: Z up, m, degrees
@@ -240,16 +242,15 @@ Examples:
   posewire convert old.mvnx new.mvnx --mvnx-version 4
   posewire convert monday/walk.mvnx tuesday/run.mvnx.gz for_opensim/ --format trc
   posewire convert take.mvnx take.npz --rate 100 --axes unity
-  posewire convert \"synthetic:walk?fingers=true\" walk.glb --duration 10
-  posewire convert mxtp://0.0.0.0 live.mvnx               until Ctrl-C, a file for each subject")]
+  posewire convert \"synthetic:walk?fingers=true\" --duration 10 walk.glb
+  posewire convert mxtp://0.0.0.0 live.mvnx               until Ctrl-C, a file for each subject"
+)]
 pub(crate) struct Convert {
-    /// Takes (.mvnx, .mvnx.gz), synthetic:walk with --duration, or a live stream.
-    #[arg(required = true, num_args = 1.., value_name = "IN")]
-    pub(crate) inputs: Vec<String>,
-
-    /// The file to write, its format told by its name; or with --format a folder.
-    #[arg(value_name = "OUT")]
-    pub(crate) output: String,
+    /// IN: takes (.mvnx, .mvnx.gz), synthetic:walk with --duration, or a live stream. OUT: the file to write, its format told
+    /// by its name; or with --format a folder.
+    // One list, because a parser of two would end the first where an option stands.
+    #[arg(required = true, value_name = "PATH", num_args = 1..)]
+    pub(crate) paths: Vec<String>,
 
     /// The format, where OUT does not say it.
     #[arg(long, value_name = "FORMAT")]

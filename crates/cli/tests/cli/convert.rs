@@ -108,6 +108,20 @@ fn samples_rate_axes_unit_and_sections_are_those_asked_for() {
 }
 
 #[test]
+fn options_may_stand_anywhere() {
+    let folder = with_take(3);
+    for arguments in [
+        ["--to", "1", "take.mvnx", "a.sto"],
+        ["take.mvnx", "--to", "1", "b.sto"],
+        ["take.mvnx", "c.sto", "--to", "1"],
+    ] {
+        let ended = convert(&folder, &arguments);
+        assert_eq!(ended.code, Some(0), "{arguments:?}: {}", ended.err);
+        assert!(ended.err.contains(".sto: 2 frames, "), "{}", ended.err);
+    }
+}
+
+#[test]
 fn every_section_can_have_a_file() {
     let folder = with_take(2);
     let ended = convert(&folder, &["take.mvnx", "take.csv", "--csv-sheets"]);
@@ -251,6 +265,7 @@ fn arguments_that_do_not_fit_are_refused_before_the_work() {
     let folder = with_take(2);
     for (arguments, words) in [
         (vec!["take.mvnx", "take.xls"], "expected a name that ends in .mvnx"),
+        (vec!["take.mvnx"], "take.mvnx has no file to be written to"),
         (vec!["take.mvnx", "take"], "expected a name that ends in"),
         (vec!["take.mvnx", "."], "is a folder, which does not say what to write"),
         (vec!["take.mvnx", "take.gltf", "--unit", "cm"], "expected m as the unit"),

@@ -45,11 +45,9 @@ pub(super) enum Source {
 impl Plan {
     /// Checks that the arguments fit together and that every file could be written.
     pub(super) fn of(arguments: &Convert) -> anyhow::Result<Self> {
-        let output = Output::of(arguments)?;
-        let sources = arguments
-            .inputs
-            .iter()
-            .map(|input| Ok((input, source(input, arguments)?)));
+        let (inputs, output) = inputs_and_output(&arguments.paths)?;
+        let output = Output::of(inputs, output, arguments.format)?;
+        let sources = inputs.iter().map(|input| Ok((input, source(input, arguments)?)));
         let sources = sources.collect::<anyhow::Result<Vec<_>>>()?;
         let jobs: Vec<_> = sources
             .into_iter()
@@ -93,18 +91,28 @@ impl Job {
     }
 }
 
-/// What the last argument says.
+/// The last path is the output.
+fn inputs_and_output(paths: &[String]) -> Result<(&[String], &str), Usage> {
+    match paths {
+        [inputs @ .., output] if !inputs.is_empty() => Ok((inputs, output)),
+        _ => Err(Usage {
+            problem: format!("{} has no file to be written to", paths.concat()),
+            help: "name it behind the take, as in posewire convert take.mvnx take.bvh".to_owned(),
+        }),
+    }
+}
+
+/// What the output says.
 enum Output {
     File { path: PathBuf, format: FileFormat },
     Folder { path: PathBuf, format: FileFormat },
 }
 
 impl Output {
-    fn of(arguments: &Convert) -> anyhow::Result<Self> {
-        let text = &arguments.output;
+    fn of(inputs: &[String], text: &str, format: Option<FileFormat>) -> anyhow::Result<Self> {
         let path = PathBuf::from(text);
-        if !(arguments.inputs.len() > 1 || path.is_dir() || text.ends_with(std::path::is_separator)) {
-            let format = arguments.format.map_or_else(|| format_of(text), Ok)?;
+        if !(inputs.len() > 1 || path.is_dir() || text.ends_with(std::path::is_separator)) {
+            let format = format.map_or_else(|| format_of(text), Ok)?;
             return Ok(Self::File { path, format });
         }
         if path.is_file() {
@@ -114,7 +122,7 @@ impl Output {
             }
             .into());
         }
-        let format = arguments.format.ok_or_else(|| Usage {
+        let format = format.ok_or_else(|| Usage {
             problem: format!("{text} is a folder, which does not say what to write"),
             help: "say it with --format, as in --format bvh".to_owned(),
         })?;
