@@ -1,6 +1,6 @@
 //! MVNX, the take format of Xsens MVN: reader and writer.
 //!
-//! [`Reader`] reads files of version 3 and 4, plain or compressed with gzip, one frame at a time and in constant memory,
+//! [`Reader`] reads files of version 3 and 4, plain or compressed with gzip, in UTF-8 or UTF-16, one frame at a time and in constant memory,
 //! and gives them in the canonical convention of [`posewire_motion`]; [`read_take`] reads a whole take at once.
 //! [`Writer`] writes both versions in MVN's own layout, frame by frame; [`write_take`] and [`rewrite`] write a take or
 //! a file at once. The crate opens no file: it reads any [`BufRead`](std::io::BufRead) and writes to any
@@ -57,6 +57,7 @@ mod scan;
 mod section;
 mod sections;
 mod skeleton;
+mod utf16;
 mod writer;
 mod xml;
 

@@ -62,6 +62,19 @@ fn object(ended: &Ended) -> Value {
 }
 
 #[test]
+fn a_take_in_utf_16_is_told_as_one_in_utf_8() {
+    let mut said = ["UTF-8", "UTF-16"].map(|encoding| {
+        let text = take().replace("UTF-8", encoding);
+        let wide = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+        let bytes = if encoding == "UTF-16" { wide } else { text.into_bytes() };
+        object(&inspect(folder("take.mvnx", bytes).path(), &["take.mvnx", "--json"]))
+    });
+    assert_ne!(said[0]["bytes"], said[1]["bytes"]);
+    said[1]["bytes"] = said[0]["bytes"].clone();
+    assert_eq!(said[0], said[1]);
+}
+
+#[test]
 fn a_take_is_told_on_one_page() {
     let folder = folder("take.mvnx", take());
     let expected = "\

@@ -40,7 +40,6 @@ mod progress;
 mod read;
 mod save;
 mod text;
-mod utf16;
 
 pub use left_out::LeftOut;
 pub use mvnx::{Rewritten, rewrite};

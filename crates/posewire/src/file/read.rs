@@ -1,6 +1,5 @@
 //! A whole take from a file.
 
-use super::utf16::Decoded;
 use super::{Progress, Recording};
 use crate::{Error, Result};
 use posewire_mvnx::{Reader, read_take};
@@ -60,8 +59,7 @@ pub(super) fn open<'a>(path: &Path, options: ReadOptions, progress: &'a Progress
         return Err(failed(io::ErrorKind::IsADirectory.into()));
     }
     progress.begin(about.len());
-    let bytes = Decoded::new(Watched { file, progress }).map_err(failed)?;
-    let reader = Reader::new(BufReader::with_capacity(BUFFER, bytes));
+    let reader = Reader::new(BufReader::with_capacity(BUFFER, Watched { file, progress }));
     let reader = reader.map_err(|error| read_error(path, error, progress))?;
     Ok(reader.salvage(options.salvage).threads(options.threads.unwrap_or(0)))
 }
@@ -81,7 +79,7 @@ pub(super) fn stopped(path: &Path) -> Error {
 }
 
 /// A reader of a file whose bytes are counted.
-pub(super) type TakeReader<'a> = Reader<BufReader<Decoded<Watched<'a>>>>;
+pub(super) type TakeReader<'a> = Reader<BufReader<Watched<'a>>>;
 
 /// A file that counts the bytes read from it and ends with an error when it is to be stopped.
 #[derive(Debug)]
