@@ -40,6 +40,7 @@ mod progress;
 mod read;
 mod save;
 mod text;
+mod tracks;
 
 pub use left_out::LeftOut;
 pub use mvnx::{Rewritten, rewrite};

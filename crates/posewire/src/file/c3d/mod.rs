@@ -11,17 +11,16 @@
 //! angles (degrees) from places, ANALOG with a rate although nothing is in it.
 
 mod parameters;
-pub(super) mod tracks;
 
 use super::format::symbol;
 use super::output::Output;
 use super::problem::Problem;
+use super::tracks::{Track, Values, tracks};
 use super::{Job, LeftOut};
 use crate::endpoint::FileFormat;
 use parameters::{BLOCK, FIRST_BLOCK, KEY, MOST, Parameters};
 use posewire_motion::{Section, Space, Take, Up};
 use std::io::Write;
-use tracks::{Track, Values, tracks};
 
 /// Writes the landmarks, joint centres, centre of mass and joint angles of a take.
 ///

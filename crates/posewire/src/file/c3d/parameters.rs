@@ -1,5 +1,6 @@
 //! The parameter section of a C3D file: named values in groups (C3D User Guide, "The Parameter Section").
 
+use super::super::text::shortened;
 use std::io;
 
 /// A parameter section that is being written: groups and, after each, its parameters.
@@ -147,11 +148,6 @@ impl Parameters {
     }
 }
 
-/// As much of a text as fits into so many bytes.
-pub(super) fn shortened(text: &str, most: usize) -> &str {
-    &text[..text.floor_char_boundary(most)]
-}
-
 /// A dimension; nothing longer than [`MOST`] comes here.
 fn count(length: usize) -> u8 {
     u8::try_from(length).unwrap_or(u8::MAX)
@@ -195,12 +191,6 @@ mod tests {
         let (bytes, _) = parameters.finish().unwrap();
         let second = bytes.windows(7).position(|name| name == b"LABELS2").unwrap();
         assert_eq!(bytes[second + 9..second + 16], b"\xff\x02\x03\x2d255"[..]);
-    }
-
-    #[test]
-    fn a_text_is_cut_between_letters() {
-        assert_eq!(shortened("añb", 2), "a");
-        assert_eq!(shortened("añb", 3), "añ");
     }
 
     #[test]

@@ -2,11 +2,12 @@
 
 use super::{DECIMALS, NOT_TRACKED, TO_GROUND, label, times};
 use crate::endpoint::FileFormat;
-use crate::file::c3d::tracks::{Track, Values, tracks};
+use crate::file::format::symbol;
 use crate::file::problem::Problem;
 use crate::file::text::Line;
+use crate::file::tracks::{Track, Values, tracks};
 use crate::file::{Job, LeftOut, Output};
-use posewire_motion::{DVec3, Section, Unit};
+use posewire_motion::{DVec3, Section};
 use std::io::{self, Write};
 
 /// A marker for each point of each segment, labelled as in C3D.
@@ -40,11 +41,7 @@ pub(in crate::file) fn write(job: &Job<'_>, out: &mut Output<'_>) -> Result<Left
 fn write_head(job: &Job<'_>, markers: &[Track], out: &mut Output<'_>) -> io::Result<()> {
     let (rate, frames) = (job.take.rate, job.take.len());
     let name = label(&job.take.subject.name);
-    let unit = match job.space.unit {
-        Unit::Metre => "m",
-        Unit::Centimetre => "cm",
-        Unit::Millimetre => "mm",
-    };
+    let unit = symbol(job.space.unit);
     write!(
         out,
         "PathFileType\t4\t(X/Y/Z)\t{name}.trc\n\

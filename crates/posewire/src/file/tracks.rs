@@ -1,16 +1,17 @@
-//! What stands in the point section of a C3D file: landmarks, joint centres, the centre of mass, joint angles.
+//! The points of a take under the names that tools for markers know: landmarks, joint centres, the centre of mass, joint
+//! angles.
 
-use super::parameters::shortened;
+use super::text::shortened;
 use posewire_motion::{Column, DQuat, DVec3, Section, Segment, Take};
 use std::collections::{HashMap, HashSet};
 
 /// One column of three numbers, with a label that no other has.
 #[derive(Debug)]
-pub(in crate::file) struct Track {
+pub(super) struct Track {
     /// Its name: `pSacrum`, `jRightElbow`, `RightElbowAngles`.
-    pub(in crate::file) label: String,
+    pub(super) label: String,
     /// What it is in words.
-    pub(in crate::file) description: String,
+    pub(super) description: String,
     of: Of,
 }
 
@@ -23,7 +24,7 @@ enum Of {
 
 impl Track {
     /// Whether it is an angle in degrees, not a place.
-    pub(in crate::file) fn is_angle(&self) -> bool {
+    pub(super) fn is_angle(&self) -> bool {
         matches!(self.of, Of::JointAngles { .. })
     }
 }
@@ -33,7 +34,7 @@ impl Track {
 /// Every point of every segment is one, and the origin of a segment without points. A label that stands on several segments
 /// belongs to one of them: that of a joint to the segment whose origin it is, that of a landmark to the first. On the others
 /// the segment's name stands behind it, so that both ends of a joint are there.
-pub(in crate::file) fn tracks(take: &Take, wanted: &[Section]) -> Vec<Track> {
+pub(super) fn tracks(take: &Take, wanted: &[Section]) -> Vec<Track> {
     let skeleton = &take.subject.skeleton;
     let mut tracks = Vec::new();
     if wanted.contains(&Section::Position) {
@@ -62,7 +63,7 @@ pub(in crate::file) fn tracks(take: &Take, wanted: &[Section]) -> Vec<Track> {
 }
 
 /// The columns of a take from which tracks are read.
-pub(in crate::file) struct Values<'a> {
+pub(super) struct Values<'a> {
     position: Option<&'a Column>,
     orientation: Option<&'a Column>,
     center_of_mass: Option<&'a Column>,
@@ -71,7 +72,7 @@ pub(in crate::file) struct Values<'a> {
 
 impl<'a> Values<'a> {
     /// Of a take.
-    pub(in crate::file) fn of(take: &'a Take) -> Self {
+    pub(super) fn of(take: &'a Take) -> Self {
         Self {
             position: take.column(Section::Position),
             orientation: take.column(Section::Orientation),
@@ -81,7 +82,7 @@ impl<'a> Values<'a> {
     }
 
     /// Where a track is in a frame, canonical, m, or how a joint is bent, degrees; `None` when it was not tracked.
-    pub(in crate::file) fn read(&self, track: &Track, frame: usize) -> Option<DVec3> {
+    pub(super) fn read(&self, track: &Track, frame: usize) -> Option<DVec3> {
         let value = match track.of {
             Of::Point { segment, offset } => self.point(frame, segment, offset),
             Of::CenterOfMass => self.center_of_mass?.vector(frame, 0),
