@@ -29,6 +29,7 @@ mod format;
 mod gltf;
 mod left_out;
 mod mvnx;
+mod names;
 mod npz;
 mod opensim;
 mod options;

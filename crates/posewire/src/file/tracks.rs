@@ -1,9 +1,9 @@
 //! The points of a take under the names that tools for markers know: landmarks, joint centres, the centre of mass, joint
 //! angles.
 
-use super::text::shortened;
+use super::names::{Unique, shortened};
 use posewire_motion::{Column, DQuat, DVec3, Section, Segment, Take};
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 /// One column of three numbers, with a label that no other has.
 #[derive(Debug)]
@@ -156,16 +156,13 @@ fn track(label: String, description: String, of: Of) -> Track {
 
 /// Shortens labels to what every reader holds and gives those that are there already a number.
 fn make_unique(tracks: &mut [Track]) {
-    let mut taken = HashSet::new();
+    let mut labels = Unique::default();
     for track in tracks {
-        let label = shortened(track.label.trim(), LONGEST_LABEL).to_owned();
-        let numbered = (2..).map(|number| format!("{label}_{number}"));
-        let mut choices = std::iter::once(label.clone())
-            .filter(|label| !label.is_empty())
-            .chain(numbered);
-        let free = choices.find(|label| !taken.contains(label));
-        track.label = free.unwrap_or(label);
-        taken.insert(track.label.clone());
+        let label = match shortened(track.label.trim(), LONGEST_LABEL) {
+            "" => "Unnamed",
+            label => label,
+        };
+        track.label = labels.name(label);
     }
 }
 
@@ -176,6 +173,7 @@ const LONGEST_LABEL: usize = 60;
 mod tests {
     use super::*;
     use posewire_motion::{Frame, Skeleton, Subject};
+    use std::collections::HashSet;
     use std::sync::Arc;
 
     fn standing(skeleton: Skeleton) -> Take {

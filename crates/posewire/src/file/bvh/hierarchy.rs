@@ -1,8 +1,7 @@
 //! A skeleton as a tree with one root.
 
-use posewire_motion::standard::BODY_SEGMENTS;
+use super::super::names::{Unique, is_mvn};
 use posewire_motion::{DVec3, Section, Segment, Skeleton, Take};
-use std::collections::HashSet;
 
 /// The segments of a skeleton, each behind its parent, with one root before all.
 #[derive(Debug)]
@@ -108,27 +107,17 @@ fn end(segment: &Segment) -> DVec3 {
 
 /// Names without spaces, none twice.
 fn names(skeleton: &Skeleton) -> Vec<String> {
-    let segments = &skeleton.segments;
-    let is_mvn = BODY_SEGMENTS.len() <= segments.len()
-        && BODY_SEGMENTS
-            .iter()
-            .zip(segments)
-            .all(|(known, segment)| known.name == segment.name);
-    let mut taken = HashSet::new();
-    let mut name = |(place, segment): (usize, &Segment)| {
+    let (is_mvn, mut names) = (is_mvn(skeleton), Unique::default());
+    let name = |(place, segment): (usize, &Segment)| {
         let own = segment.name.split_whitespace().collect::<Vec<_>>().join("_");
         let wanted = match MVN.get(place).filter(|_| is_mvn) {
             Some(name) => (*name).to_owned(),
             None if own.is_empty() => format!("Segment{}", place + 1),
             None => own,
         };
-        let numbered = (2..).map(|number| format!("{wanted}_{number}"));
-        let mut choices = std::iter::once(wanted.clone()).chain(numbered);
-        let free = choices.find(|name| !taken.contains(name)).unwrap_or(wanted);
-        taken.insert(free.clone());
-        free
+        names.name(&wanted)
     };
-    segments.iter().enumerate().map(&mut name).collect()
+    skeleton.segments.iter().enumerate().map(name).collect()
 }
 
 /// What MVN calls the segments of the body in BVH, in its order.

@@ -1,6 +1,6 @@
 //! The parameter section of a C3D file: named values in groups (C3D User Guide, "The Parameter Section").
 
-use super::super::text::shortened;
+use super::super::names::shortened;
 use std::io;
 
 /// A parameter section that is being written: groups and, after each, its parameters.

@@ -2,10 +2,10 @@
 
 use super::{NOT_TRACKED, TO_GROUND, label, times};
 use crate::endpoint::FileFormat;
+use crate::file::names::is_mvn;
 use crate::file::problem::Problem;
 use crate::file::text::Line;
 use crate::file::{Job, LeftOut, Output};
-use posewire_motion::standard::BODY_SEGMENTS;
 use posewire_motion::{Column, DQuat, Section, Skeleton};
 use std::io::Write;
 
@@ -51,11 +51,7 @@ fn add_body(orientation: &Column, frame: usize, segment: usize, line: &mut Line)
 /// The places of the segments to write and the names of their columns, and which segments are none of `OpenSim`'s bodies.
 fn bodies(skeleton: &Skeleton) -> (Vec<(usize, String)>, LeftOut) {
     let segments = &skeleton.segments;
-    let is_mvn = BODY_SEGMENTS.len() <= segments.len()
-        && BODY_SEGMENTS
-            .iter()
-            .zip(segments)
-            .all(|(known, segment)| known.name == segment.name);
+    let is_mvn = is_mvn(skeleton);
     let body = |place: usize| {
         if !is_mvn {
             return Some(label(&segments[place].name));

@@ -1,11 +1,11 @@
 //! Which columns the table of a take has.
 
 use super::super::Job;
+use super::super::names::Unique;
 use super::{MILLION, Schema};
 use ::parquet::basic::{LogicalType, Repetition, Type};
 use ::parquet::schema::types::Type as SchemaType;
 use posewire_motion::{Column, Per, Section};
-use std::collections::HashSet;
 use std::sync::Arc;
 
 /// The columns of a take's table, in order.
@@ -109,15 +109,9 @@ impl Table {
 
     /// Gives a number to a name that is there already.
     fn make_unique(&mut self) {
-        let mut taken = HashSet::new();
+        let mut names = Unique::default();
         for field in &mut self.fields {
-            let name = field.name.clone();
-            let numbered = (2..).map(|number| format!("{name}_{number}"));
-            let mut choices = std::iter::once(name.clone()).chain(numbered);
-            field.name = choices
-                .find(|name| !taken.contains(&name.to_lowercase()))
-                .unwrap_or(name.clone());
-            taken.insert(field.name.to_lowercase());
+            field.name = names.name(&field.name);
         }
     }
 }
