@@ -206,8 +206,8 @@ pub enum Error {
         /// What was asked for.
         found: String,
     },
-    /// A take that has nothing of what a format holds.
-    #[error("{format} holds {what}, and the take has none")]
+    /// A take that has nothing of what a format holds, or of which none of that was asked for.
+    #[error("{format} holds {what}, and there are none to write")]
     Lacks {
         /// The format's name.
         format: &'static str,

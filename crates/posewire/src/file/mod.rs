@@ -139,7 +139,7 @@ struct Job<'a> {
     progress: &'a Progress,
 }
 
-impl Job<'_> {
+impl<'a> Job<'a> {
     /// Writes the take. Each format has a file of its own here, with `fn write(job: &Job<'_>, out: &mut Output<'_>)`.
     fn write(&self, format: FileFormat, recording: &Recording, out: &mut Output<'_>) -> Result<LeftOut, Problem> {
         match format {
@@ -170,11 +170,24 @@ impl Job<'_> {
     }
 
     /// The sections to write: those asked for that the take has, in the order of [`Section::ALL`].
-    fn sections(&self) -> impl Iterator<Item = Section> {
-        let asked = self.options.sections.as_deref();
-        self.take
-            .sections()
-            .filter(move |section| asked.is_none_or(|asked| asked.contains(section)))
+    fn sections(&self) -> impl Iterator<Item = Section> + 'a {
+        self.options.sections_of(self.take)
+    }
+
+    /// A section, if it is to be written and the take has it.
+    fn column(&self, section: Section) -> Option<&'a Column> {
+        let asked = self.sections().any(|asked| asked == section);
+        self.take.column(section).filter(|_| asked)
+    }
+
+    /// Samples a second, for a format whose frames are that far apart.
+    fn rate(&self, format: FileFormat) -> Result<f64, Problem> {
+        let rate = self.take.rate;
+        if rate > 0.0 && rate.is_finite() {
+            Ok(rate)
+        } else {
+            Err(Problem::lacks(format, "samples at a rate above 0 Hz"))
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! How a take is written.
 
-use posewire_motion::{Handedness, Section, Space, Unit, Up};
+use posewire_motion::{Handedness, Section, Space, Take, Unit, Up};
 use posewire_mvnx::Version;
 
 /// How a take is written. The default is what the tools of each format expect.
@@ -20,6 +20,15 @@ pub struct WriteOptions {
     pub bvh: BvhOptions,
     /// For Parquet alone.
     pub parquet: ParquetOptions,
+}
+
+impl WriteOptions {
+    /// The sections of a take that were asked for, in the order of [`Section::ALL`].
+    pub(super) fn sections_of<'a>(&'a self, take: &'a Take) -> impl Iterator<Item = Section> + 'a {
+        let asked = self.sections.as_deref();
+        take.sections()
+            .filter(move |section| asked.is_none_or(|asked| asked.contains(section)))
+    }
 }
 
 /// The axes that a tool works in.

@@ -109,11 +109,7 @@ fn parts(target: &Target, recording: &Recording, options: &WriteOptions) -> Vec<
     if target.format != FileFormat::Csv || !options.csv.file_per_section {
         return vec![(target.path.clone(), options.clone())];
     }
-    let asked = options.sections.as_deref();
-    let sections = recording
-        .take
-        .sections()
-        .filter(|section| asked.is_none_or(|asked| asked.contains(section)));
+    let sections = options.sections_of(&recording.take);
     let part = |name: &str, sections: &[Section]| {
         let options = WriteOptions {
             sections: Some(sections.to_vec()),
@@ -122,7 +118,7 @@ fn parts(target: &Target, recording: &Recording, options: &WriteOptions) -> Vec<
         (with_part(&target.path, name), options)
     };
     // What belongs to no section has a file too.
-    let times = asked.is_none().then(|| part("frames", &[]));
+    let times = options.sections.is_none().then(|| part("frames", &[]));
     sections
         .map(|section| part(section.name(), &[section]))
         .chain(times)

@@ -5,7 +5,9 @@ use posewire::Error;
 use posewire::endpoint::FileFormat;
 use posewire::file::{Progress, Recording, WriteOptions, write};
 use posewire::stop::Stop;
+use posewire_motion::{Section, Take};
 use std::io::{self, Cursor, Seek, SeekFrom, Write};
+use std::sync::Arc;
 
 /// A disk with room for so many bytes.
 struct Disk {
@@ -33,14 +35,9 @@ impl Seek for Disk {
 }
 
 fn formats() -> impl Iterator<Item = FileFormat> {
-    let all = [
-        FileFormat::C3d,
-        FileFormat::Glb,
-        FileFormat::Gltf,
-        FileFormat::Npz,
-        FileFormat::Parquet,
-    ];
-    all.into_iter()
+    FileFormat::ALL
+        .iter()
+        .copied()
         .filter(|format| *format != FileFormat::Parquet || cfg!(feature = "parquet"))
 }
 
@@ -81,5 +78,56 @@ fn what_is_stopped_says_so() {
         let progress = Progress::new(stop.clone());
         let result = write(format, &recording, &options, &progress, &mut Cursor::new(Vec::new()));
         assert!(matches!(result, Err(Error::Stopped { .. })), "{format}: {result:?}");
+    }
+}
+
+#[test]
+fn a_take_without_a_rate_is_refused_where_frames_follow_each_other_at_it() {
+    let take = walk();
+    let mut still = Take::new(Arc::clone(&take.subject), 0.0);
+    take.frames().for_each(|frame| still.push(&frame).unwrap());
+    let recording = Recording::from(still);
+    for format in formats() {
+        let mut out = Cursor::new(Vec::new());
+        let result = write(
+            format,
+            &recording,
+            &WriteOptions::default(),
+            &Progress::default(),
+            &mut out,
+        );
+        match format {
+            FileFormat::Csv | FileFormat::Npz | FileFormat::Parquet => assert!(result.is_ok(), "{format}"),
+            FileFormat::Mvnx | FileFormat::MvnxGz => assert!(result.is_err(), "{format}"),
+            _ => assert!(
+                matches!(
+                    result,
+                    Err(Error::Lacks {
+                        what: "samples at a rate above 0 Hz",
+                        ..
+                    })
+                ),
+                "{format}: {result:?}"
+            ),
+        }
+    }
+}
+
+#[test]
+fn what_a_format_needs_and_was_not_asked_for_is_not_written() {
+    let recording = Recording::from(walk());
+    for (format, sections) in [
+        (FileFormat::Bvh, [Section::Position, Section::JointAngles]),
+        (FileFormat::Sto, [Section::Position, Section::JointAngles]),
+        (FileFormat::Mot, [Section::Position, Section::Orientation]),
+        (FileFormat::Trc, [Section::Orientation, Section::JointAngles]),
+    ] {
+        let options = WriteOptions {
+            sections: Some(sections.to_vec()),
+            ..WriteOptions::default()
+        };
+        let mut out = Cursor::new(Vec::new());
+        let result = write(format, &recording, &options, &Progress::default(), &mut out);
+        assert!(matches!(result, Err(Error::Lacks { .. })), "{format}: {result:?}");
     }
 }

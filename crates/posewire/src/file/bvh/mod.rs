@@ -16,37 +16,33 @@ use crate::endpoint::FileFormat;
 use hierarchy::Hierarchy;
 use pose::{Poses, Turns};
 use posewire_motion::kinematics::LargestGaps;
-use posewire_motion::{DVec3, Frame, Section, Space, Take};
+use posewire_motion::{DVec3, Frame, Section, Space};
 use std::io::{self, Write};
 use std::sync::Arc;
 
 pub(super) fn write(job: &Job<'_>, out: &mut Output<'_>) -> Result<LeftOut, Problem> {
     let take = job.take;
-    if take.subject.skeleton.segments.is_empty() || take.column(Section::Orientation).is_none() {
+    if take.subject.skeleton.segments.is_empty() || job.column(Section::Orientation).is_none() {
         return Err(Problem::lacks(FileFormat::Bvh, "orientations of segments"));
     }
+    let rate = job.rate(FileFormat::Bvh)?;
     let hierarchy = Hierarchy::of(take, job.options.bvh.translations);
     write_hierarchy(&hierarchy, job.space, out)?;
-    writeln!(
-        out,
-        "MOTION\nFrames: {}\nFrame Time: {:.10}",
-        take.len(),
-        1.0 / take.rate
-    )?;
+    writeln!(out, "MOTION\nFrames: {}\nFrame Time: {:.10}", take.len(), 1.0 / rate)?;
     let held = write_motion(job, &hierarchy, out)?;
-    Ok(left_out(take, job.options.bvh.translations, held))
+    Ok(left_out(job, held))
 }
 
 /// Writes all frames, and gives in how many something was not tracked.
 fn write_motion(job: &Job<'_>, hierarchy: &Hierarchy, out: &mut Output<'_>) -> io::Result<usize> {
-    let mut poses = Poses::new(job.take, hierarchy);
+    let mut poses = Poses::new(job, hierarchy);
     let mut turns = Turns::new(hierarchy.joints.len());
     let mut line = Line::new(' ');
     let mut held = 0;
     for frame in 0..job.take.len() {
         if frame == 0 && job.options.bvh.first_frame_is_t_pose {
             poses.stand(hierarchy);
-        } else if !poses.read(job.take, frame) {
+        } else if !poses.read(frame) {
             held += 1;
         }
         for (place, joint) in hierarchy.joints.iter().enumerate() {
@@ -105,15 +101,17 @@ fn offset_line(offset: DVec3, space: Space) -> String {
     line.into_text()
 }
 
-fn left_out(take: &Take, translations: bool, held: usize) -> LeftOut {
+fn left_out(job: &Job<'_>, held: usize) -> LeftOut {
     let mut left_out = LeftOut::new();
     if held > 0 {
         left_out.push(format!(
             "that something was not tracked in {held} of {} frames, where it stays as it was",
-            take.len()
+            job.take.len()
         ));
     }
-    if !translations && let Some((joint, gap)) = largest_gap(take) {
+    if !job.options.bvh.translations
+        && let Some((joint, gap)) = largest_gap(job)
+    {
         left_out.push(format!(
             "the gaps between segments, up to {:.1} mm at {joint}, which translations would keep",
             gap * 1000.0
@@ -122,8 +120,9 @@ fn left_out(take: &Take, translations: bool, held: usize) -> LeftOut {
     left_out
 }
 
-fn largest_gap(take: &Take) -> Option<(String, f64)> {
-    take.column(Section::Position)?;
+fn largest_gap(job: &Job<'_>) -> Option<(String, f64)> {
+    job.column(Section::Position)?;
+    let take = job.take;
     let mut gaps = LargestGaps::new();
     let mut frame = Frame::new(Arc::clone(&take.subject));
     for place in 0..take.len() {
@@ -131,11 +130,12 @@ fn largest_gap(take: &Take) -> Option<(String, f64)> {
         gaps.add(&frame);
     }
     let (joint, gap) = gaps.worst()?;
-    // Below what the file's numbers hold there is no gap.
-    (gap > 1e-6).then(|| (take.subject.skeleton.joints[joint].name.clone(), gap))
+    (gap >= SMALLEST_GAP).then(|| (take.subject.skeleton.joints[joint].name.clone(), gap))
 }
 
 const DECIMALS: usize = 6;
+/// What is told as 0.0 mm is no gap.
+const SMALLEST_GAP: f64 = 0.000_05;
 const THREE: &str = "3 Yrotation Xrotation Zrotation";
 const SIX: &str = "6 Xposition Yposition Zposition Yrotation Xrotation Zrotation";
 

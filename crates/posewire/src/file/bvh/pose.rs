@@ -1,28 +1,34 @@
 //! The pose of a frame, and the turns that make it.
 
 use super::hierarchy::{Hierarchy, Joint};
-use posewire_motion::{DMat3, DQuat, DVec3, Section, Take};
+use crate::file::Job;
+use posewire_motion::{Column, DMat3, DQuat, DVec3, Section};
 
 /// The pose of every segment in the world; one that is not tracked is where it was.
-pub(super) struct Poses {
+pub(super) struct Poses<'a> {
+    position: Option<&'a Column>,
+    orientation: Option<&'a Column>,
     positions: Vec<DVec3>,
     orientations: Vec<DQuat>,
 }
 
-impl Poses {
+impl<'a> Poses<'a> {
     /// The first pose that is known of each segment.
-    pub(super) fn new(take: &Take, hierarchy: &Hierarchy) -> Self {
+    pub(super) fn new(job: &Job<'a>, hierarchy: &Hierarchy) -> Self {
         let mut poses = Self {
+            position: job.column(Section::Position),
+            orientation: job.column(Section::Orientation),
             positions: vec![DVec3::ZERO; hierarchy.joints.len()],
             orientations: vec![DQuat::IDENTITY; hierarchy.joints.len()],
         };
         poses.stand(hierarchy);
         for segment in 0..hierarchy.joints.len() {
-            let position = take.column(Section::Position);
-            let position = position.and_then(|column| (0..take.len()).find_map(|frame| column.vector(frame, segment)));
+            let mut frames = 0..job.take.len();
+            let position = poses.position;
+            let position = position.and_then(|column| frames.clone().find_map(|frame| column.vector(frame, segment)));
             poses.positions[segment] = position.unwrap_or(poses.positions[segment]);
-            let turn = take.column(Section::Orientation);
-            let turn = turn.and_then(|column| (0..take.len()).find_map(|frame| column.quaternion(frame, segment)));
+            let turn = poses.orientation;
+            let turn = turn.and_then(|column| frames.find_map(|frame| column.quaternion(frame, segment)));
             poses.orientations[segment] = turn.and_then(normalized).unwrap_or(DQuat::IDENTITY);
         }
         poses
@@ -38,16 +44,15 @@ impl Poses {
     }
 
     /// The pose of a frame. False when something was not tracked in it.
-    pub(super) fn read(&mut self, take: &Take, frame: usize) -> bool {
-        let (position, orientation) = (take.column(Section::Position), take.column(Section::Orientation));
+    pub(super) fn read(&mut self, frame: usize) -> bool {
         let mut whole = true;
         for segment in 0..self.positions.len() {
-            match position.map(|column| column.vector(frame, segment)) {
+            match self.position.map(|column| column.vector(frame, segment)) {
                 Some(Some(position)) if position.is_finite() => self.positions[segment] = position,
                 None => {}
                 Some(_) => whole = false,
             }
-            let turn = orientation.and_then(|column| column.quaternion(frame, segment));
+            let turn = self.orientation.and_then(|column| column.quaternion(frame, segment));
             match turn.and_then(normalized) {
                 Some(turn) => self.orientations[segment] = turn,
                 None => whole = false,

@@ -37,9 +37,7 @@ pub(super) fn write(job: &Job<'_>, out: &mut Output<'_>) -> Result<LeftOut, Prob
             "positions, joint angles and the centre of mass",
         ));
     }
-    if !(take.rate > 0.0 && take.rate.is_finite()) {
-        return Err(Problem::lacks(FileFormat::C3d, "samples at a rate above 0 Hz"));
-    }
+    job.rate(FileFormat::C3d)?;
     let file = File {
         take,
         tracks: &tracks,

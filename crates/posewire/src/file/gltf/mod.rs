@@ -37,9 +37,7 @@ pub(super) fn write(job: &Job<'_>, format: FileFormat, out: &mut Output<'_>) -> 
     if take.subject.skeleton.segments.is_empty() {
         return Err(Problem::lacks(format, "segments"));
     }
-    if !(take.rate > 0.0 && take.rate.is_finite()) {
-        return Err(Problem::lacks(format, "samples at a rate above 0 Hz"));
-    }
+    job.rate(format)?;
     let mut buffer = Buffer::new();
     let mut document = document(job, &mut buffer)?;
     let (bytes, views, accessors) = buffer.finish();

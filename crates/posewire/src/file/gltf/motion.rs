@@ -43,11 +43,9 @@ struct Columns<'a> {
 
 impl<'a> Columns<'a> {
     fn of(job: &Job<'a>) -> Self {
-        let wanted = |section| job.sections().find(|wanted| *wanted == section);
-        let column = |section| wanted(section).and_then(|section| job.take.column(section));
         Self {
-            position: column(Section::Position),
-            orientation: column(Section::Orientation),
+            position: job.column(Section::Position),
+            orientation: job.column(Section::Orientation),
         }
     }
 

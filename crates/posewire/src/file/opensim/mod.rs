@@ -15,16 +15,12 @@ const TO_GROUND: DQuat = DQuat::from_xyzw(-FRAC_1_SQRT_2, 0.0, 0.0, FRAC_1_SQRT_
 
 /// When each frame was, s after the first: by the numbers of the samples, which unlike their times do not jitter. `OpenSim`
 /// wants times that go up, so frames out of order get those of their places.
-fn times(take: &Take) -> Vec<f64> {
+fn times(take: &Take, rate: f64) -> Vec<f64> {
     let samples = take.samples();
     let go_up = samples.windows(2).all(|pair| pair[0] < pair[1]);
     let first = samples.first().copied().unwrap_or_default();
     let offset = |(place, &sample): (usize, &u32)| if go_up { f64::from(sample - first) } else { place as f64 };
-    samples
-        .iter()
-        .enumerate()
-        .map(|frame| offset(frame) / take.rate)
-        .collect()
+    samples.iter().enumerate().map(|frame| offset(frame) / rate).collect()
 }
 
 /// A name as the label of a column, which ends at white space.
@@ -55,8 +51,8 @@ mod tests {
 
     #[test]
     fn times_go_up_from_zero_and_keep_gaps() {
-        assert_eq!(times(&take(&[7, 8, 12])), [0.0, 0.1, 0.5]);
-        assert_eq!(times(&take(&[7, 7, 3])), [0.0, 0.1, 0.2]);
+        assert_eq!(times(&take(&[7, 8, 12]), 10.0), [0.0, 0.1, 0.5]);
+        assert_eq!(times(&take(&[7, 7, 3]), 10.0), [0.0, 0.1, 0.2]);
     }
 
     #[test]

@@ -12,7 +12,7 @@ use std::io::Write;
 /// `RightKnee_flexion`. Which coordinate of a model each of them is depends on the model.
 pub(in crate::file) fn write(job: &Job<'_>, out: &mut Output<'_>) -> Result<LeftOut, Problem> {
     let take = job.take;
-    let angles = take.column(Section::JointAngles);
+    let angles = job.column(Section::JointAngles);
     let angles = angles.ok_or_else(|| Problem::lacks(FileFormat::Mot, "joint angles"))?;
     let [frames, joints, _] = angles.shape();
     write!(
@@ -23,7 +23,7 @@ pub(in crate::file) fn write(job: &Job<'_>, out: &mut Output<'_>) -> Result<Left
     let mut line = Line::new('\t');
     add_names(take, &mut line);
     line.end(out, "\n")?;
-    for (row, time) in angles.rows().zip(times(take)) {
+    for (row, time) in angles.rows().zip(times(take, job.rate(FileFormat::Mot)?)) {
         line.number(time, DECIMALS);
         for angle in row {
             if angle.is_finite() {

@@ -13,13 +13,13 @@ use std::io::Write;
 /// with commas between them. A skeleton that is not MVN's has a column for each segment.
 pub(in crate::file) fn write(job: &Job<'_>, out: &mut Output<'_>) -> Result<LeftOut, Problem> {
     let take = job.take;
-    let orientation = take.column(Section::Orientation);
+    let orientation = job.column(Section::Orientation);
     let orientation = orientation.ok_or_else(|| Problem::lacks(FileFormat::Sto, "orientations of segments"))?;
+    let rate = job.rate(FileFormat::Sto)?;
     let (bodies, left_out) = bodies(&take.subject.skeleton);
     write!(
         out,
-        "DataRate={:.6}\nDataType=Quaternion\nversion=3\nOpenSimVersion=4.5\nendheader\n",
-        take.rate
+        "DataRate={rate:.6}\nDataType=Quaternion\nversion=3\nOpenSimVersion=4.5\nendheader\n"
     )?;
     let mut line = Line::new('\t');
     line.field("time");
@@ -27,7 +27,7 @@ pub(in crate::file) fn write(job: &Job<'_>, out: &mut Output<'_>) -> Result<Left
         line.field(name);
     }
     line.end(out, "\n")?;
-    for (frame, time) in times(take).into_iter().enumerate() {
+    for (frame, time) in times(take, rate).into_iter().enumerate() {
         line.number(time, super::DECIMALS);
         for (segment, _) in &bodies {
             add_body(orientation, frame, *segment, &mut line);

@@ -15,7 +15,7 @@ use std::io::{self, Write};
 /// The axes are those of `OpenSim`'s ground where no others are asked for. Frames are numbered from 1.
 pub(in crate::file) fn write(job: &Job<'_>, out: &mut Output<'_>) -> Result<LeftOut, Problem> {
     let take = job.take;
-    let markers = if take.column(Section::Position).is_some() {
+    let markers = if job.column(Section::Position).is_some() {
         tracks(take, &[Section::Position])
     } else {
         Vec::new()
@@ -23,10 +23,11 @@ pub(in crate::file) fn write(job: &Job<'_>, out: &mut Output<'_>) -> Result<Left
     if markers.is_empty() {
         return Err(Problem::lacks(FileFormat::Trc, "positions of segments"));
     }
-    write_head(job, &markers, out)?;
+    let rate = job.rate(FileFormat::Trc)?;
+    write_head(job, rate, &markers, out)?;
     let values = Values::of(take);
     let mut line = Line::new('\t');
-    for (frame, time) in times(take).into_iter().enumerate() {
+    for (frame, time) in times(take, rate).into_iter().enumerate() {
         line.whole(frame as u64 + 1);
         line.number(time, DECIMALS);
         for marker in &markers {
@@ -38,8 +39,8 @@ pub(in crate::file) fn write(job: &Job<'_>, out: &mut Output<'_>) -> Result<Left
     Ok(LeftOut::new())
 }
 
-fn write_head(job: &Job<'_>, markers: &[Track], out: &mut Output<'_>) -> io::Result<()> {
-    let (rate, frames) = (job.take.rate, job.take.len());
+fn write_head(job: &Job<'_>, rate: f64, markers: &[Track], out: &mut Output<'_>) -> io::Result<()> {
+    let frames = job.take.len();
     let name = label(&job.take.subject.name);
     let unit = symbol(job.space.unit);
     write!(
