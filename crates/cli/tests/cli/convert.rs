@@ -57,6 +57,7 @@ fn assert_refused(folder: &TempDir, arguments: &[&str], code: i32, words: &str) 
     assert_eq!(ended.code, Some(code), "{arguments:?}: {}", ended.err);
     assert!(ended.err.contains(words), "{arguments:?}: {}", ended.err);
     assert!(ended.err.contains("\nhelp: "), "{}", ended.err);
+    assert!(!ended.err.contains("listening"), "{}", ended.err);
     assert_eq!(names(folder.path()), before, "{arguments:?}");
 }
 
@@ -217,7 +218,8 @@ fn the_walker_becomes_a_file_for_each_person() {
 #[cfg(unix)]
 #[test]
 fn a_live_stream_becomes_a_file_for_each_subject() {
-    let folder = TempDir::new().unwrap();
+    // One of them has a file of yesterday, which nobody could know of beforehand.
+    let folder = folder(&[("live_Ada.mvnx", b"old")]);
     let mut child = Command::new(env!("CARGO_BIN_EXE_posewire"))
         .args(["convert", "mxtp://127.0.0.1:0", "live.mvnx", "--duration", "60"])
         .current_dir(folder.path())
@@ -241,8 +243,11 @@ fn a_live_stream_becomes_a_file_for_each_subject() {
     let mut rest = String::new();
     said.read_to_string(&mut rest).unwrap();
     assert_eq!(child.wait().unwrap().code(), Some(0), "{rest}");
+    assert_eq!(text(&folder, "live_Ada.mvnx"), "old");
+    fs::remove_file(folder.path().join("live_Ada.mvnx")).unwrap();
     let files = names(folder.path());
     assert_eq!(files.len(), 2, "{files:?}: {rest}");
+    assert!(files.contains(&"live_Ada_2.mvnx".to_owned()), "{files:?}: {rest}");
     for file in files {
         let ended = posewire(folder.path(), &["inspect", &file], b"");
         assert!(ended.out.contains("rate            60 Hz"), "{}", ended.out);
@@ -287,6 +292,14 @@ fn arguments_that_do_not_fit_are_refused_before_the_work() {
         (vec!["take.mvnx", "x.mvnx", "--mvnx-version", "2"], "version 2"),
     ] {
         assert_refused(&folder, &arguments, 2, words);
+    }
+    // A live stream cannot be had again, so that nothing may be found wrong behind it.
+    for (arguments, words) in [
+        (["x.gltf", "--unit", "cm"], "expected m as the unit"),
+        (["x.csv", "--rate", "0"], "expected a rate above 0"),
+    ] {
+        let live = ["mxtp://127.0.0.1:0", "--duration", "9"];
+        assert_refused(&folder, &[&live[..], &arguments].concat(), 2, words);
     }
     fs::write(folder.path().join("take.csv"), "").unwrap();
     assert_refused(&folder, &["take.csv", "x.bvh"], 2, "CSV can be written, not read");

@@ -149,10 +149,11 @@ impl<'a> Job<'a> {
             #[cfg(feature = "parquet")]
             FileFormat::Parquet => parquet::write(self, out),
             #[cfg(not(feature = "parquet"))]
-            FileFormat::Parquet => Err(Problem::Other(Error::Feature {
-                what: "Parquet",
-                feature: "parquet",
-            })),
+            FileFormat::Parquet => self
+                .options
+                .check(format)
+                .map(|()| LeftOut::new())
+                .map_err(Problem::Other),
             FileFormat::Csv => csv::write(self, out),
             FileFormat::Bvh => bvh::write(self, out),
             FileFormat::Trc => opensim::trc::write(self, out),

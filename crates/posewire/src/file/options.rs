@@ -1,5 +1,7 @@
 //! How a take is written.
 
+use crate::endpoint::FileFormat;
+use crate::{Error, Result};
 use posewire_motion::{Handedness, Section, Space, Take, Unit, Up};
 use posewire_mvnx::Version;
 
@@ -23,6 +25,22 @@ pub struct WriteOptions {
 }
 
 impl WriteOptions {
+    /// Looks whether takes can be written so, before there is one.
+    ///
+    /// # Errors
+    /// [`Error::Fixed`] when the format cannot have the axes or the unit, [`Error::Feature`] when this program was built
+    /// without the format.
+    pub fn check(&self, format: FileFormat) -> Result<()> {
+        format.space(self.axes, self.unit)?;
+        match format {
+            FileFormat::Parquet if !cfg!(feature = "parquet") => Err(Error::Feature {
+                what: "Parquet",
+                feature: "parquet",
+            }),
+            _ => Ok(()),
+        }
+    }
+
     /// The sections of a take that were asked for, in the order of [`Section::ALL`].
     pub(super) fn sections_of<'a>(&'a self, take: &'a Take) -> impl Iterator<Item = Section> + 'a {
         let asked = self.sections.as_deref();

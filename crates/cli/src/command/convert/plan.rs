@@ -54,24 +54,33 @@ impl Plan {
             .map(|(input, source)| output.job(input, source, arguments))
             .collect();
         refuse_same_names(&jobs)?;
-        if let Output::Folder { path, .. } = &output {
-            fs::create_dir_all(path).map_err(|error| posewire::Error::write(path.display().to_string(), &error))?;
-        }
-        for job in &jobs {
-            job.target(None).check()?;
-        }
-        Ok(Self {
+        let plan = Self {
             jobs,
             samples: samples(arguments)?,
-            rate: arguments.rate,
+            rate: rate(arguments)?,
             duration: arguments.duration,
             reading: super::reading(arguments),
             writing: writing(arguments),
-        })
+        };
+        for job in &plan.jobs {
+            plan.writing.check(job.format)?;
+        }
+        if let Output::Folder { path, .. } = &output {
+            fs::create_dir_all(path).map_err(|error| posewire::Error::write(path.display().to_string(), &error))?;
+        }
+        for job in &plan.jobs {
+            job.target(None).check()?;
+        }
+        Ok(plan)
     }
 }
 
 impl Job {
+    /// Whether what comes in cannot come again.
+    pub(super) fn is_live(&self) -> bool {
+        matches!(self.source, Source::Live(_))
+    }
+
     /// The file to write, with the name of one of several subjects in it.
     pub(super) fn target(&self, subject: Option<&str>) -> Target {
         let path = match subject {
@@ -253,6 +262,16 @@ fn samples(arguments: &Convert) -> Result<RangeInclusive<u32>, Usage> {
         });
     }
     Ok(samples)
+}
+
+fn rate(arguments: &Convert) -> Result<Option<f64>, Usage> {
+    match arguments.rate {
+        Some(rate) if !(rate > 0.0 && rate.is_finite()) => Err(Usage {
+            problem: format!("expected a rate above 0, found {rate}"),
+            help: "leave the rate out to keep every sample".to_owned(),
+        }),
+        rate => Ok(rate),
+    }
 }
 
 fn writing(arguments: &Convert) -> WriteOptions {
