@@ -1,6 +1,6 @@
 //! Outputs that fail, and work that is stopped.
 
-use crate::walk;
+use crate::{formats, walk};
 use posewire::Error;
 use posewire::endpoint::FileFormat;
 use posewire::file::{Progress, Recording, WriteOptions, write};
@@ -32,13 +32,6 @@ impl Seek for Disk {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
         self.file.seek(to)
     }
-}
-
-fn formats() -> impl Iterator<Item = FileFormat> {
-    FileFormat::ALL
-        .iter()
-        .copied()
-        .filter(|format| *format != FileFormat::Parquet || cfg!(feature = "parquet"))
 }
 
 #[test]

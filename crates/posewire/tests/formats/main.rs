@@ -8,6 +8,7 @@ mod failures;
 mod gltf;
 mod npz;
 mod parquet;
+mod upper_body;
 
 use posewire::endpoint::FileFormat;
 use posewire::file::{LeftOut, Progress, Recording, WriteOptions, write};
@@ -15,6 +16,14 @@ use posewire_motion::{DQuat, DVec3, Frame, Segment, SegmentKind, Skeleton, Subje
 use std::io::Cursor;
 use std::sync::Arc;
 use std::time::Duration;
+
+/// The formats that can be written here.
+fn formats() -> impl Iterator<Item = FileFormat> {
+    FileFormat::ALL
+        .iter()
+        .copied()
+        .filter(|format| *format != FileFormat::Parquet || cfg!(feature = "parquet"))
+}
 
 /// A take in a format, and what is not in it.
 fn written(format: FileFormat, take: &Take) -> (Vec<u8>, LeftOut) {
