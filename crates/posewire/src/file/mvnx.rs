@@ -127,7 +127,7 @@ pub struct Rewritten {
     pub damage: Option<String>,
 }
 
-/// Takes out of a frame what was not asked for. Positions and orientations every frame of MVNX has.
+/// Takes out of a frame what was not asked for, and what belongs to no section. Positions and orientations every frame of MVNX has.
 fn keep(frame: &mut Frame, asked: Option<&[Section]>) {
     let Some(asked) = asked else { return };
     let drop = |section| !asked.contains(&section);
@@ -152,9 +152,23 @@ fn keep(frame: &mut Frame, asked: Option<&[Section]>) {
     if drop(Section::SensorOrientation) {
         frame.sensor_orientation.clear();
     }
-    if drop(Section::CenterOfMass) {
+    let of_center = [
+        Section::CenterOfMass,
+        Section::CenterOfMassVelocity,
+        Section::CenterOfMassAcceleration,
+    ];
+    if of_center.into_iter().all(drop) {
         frame.center_of_mass = None;
     }
+    // The file has both or neither.
+    if let Some(center) = &mut frame.center_of_mass
+        && of_center[1..].iter().copied().all(drop)
+    {
+        (center.velocity, center.acceleration) = (None, None);
+    }
+    frame.contacts.clear();
+    frame.markers.clear();
+    frame.events.clear();
 }
 
 /// An output that is compressed when the format is.

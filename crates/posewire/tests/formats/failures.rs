@@ -5,7 +5,7 @@ use posewire::Error;
 use posewire::endpoint::FileFormat;
 use posewire::file::{Progress, Recording, WriteOptions, write};
 use posewire::stop::Stop;
-use posewire_motion::{Section, Take};
+use posewire_motion::Take;
 use std::io::{self, Cursor, Seek, SeekFrom, Write};
 use std::sync::Arc;
 
@@ -103,24 +103,5 @@ fn a_take_without_a_rate_is_refused_where_frames_follow_each_other_at_it() {
                 "{format}: {result:?}"
             ),
         }
-    }
-}
-
-#[test]
-fn what_a_format_needs_and_was_not_asked_for_is_not_written() {
-    let recording = Recording::from(walk());
-    for (format, sections) in [
-        (FileFormat::Bvh, [Section::Position, Section::JointAngles]),
-        (FileFormat::Sto, [Section::Position, Section::JointAngles]),
-        (FileFormat::Mot, [Section::Position, Section::Orientation]),
-        (FileFormat::Trc, [Section::Orientation, Section::JointAngles]),
-    ] {
-        let options = WriteOptions {
-            sections: Some(sections.to_vec()),
-            ..WriteOptions::default()
-        };
-        let mut out = Cursor::new(Vec::new());
-        let result = write(format, &recording, &options, &Progress::default(), &mut out);
-        assert!(matches!(result, Err(Error::Lacks { .. })), "{format}: {result:?}");
     }
 }

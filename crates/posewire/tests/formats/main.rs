@@ -7,6 +7,7 @@ mod c3d;
 mod failures;
 mod gltf;
 mod npz;
+mod only;
 mod parquet;
 mod upper_body;
 

@@ -43,6 +43,12 @@ pub(super) fn write(job: &Job<'_>, out: &mut Output<'_>) -> Result<LeftOut, Prob
         tracks: &tracks,
         space: job.space,
         frames: frames(take),
+        // They belong to no section that can be asked for.
+        events: if job.options.sections.is_none() {
+            take.events()
+        } else {
+            &[]
+        },
     };
     let (parameters, data_block) = file.parameters().finish()?;
     out.write_all(&file.header(data_block))?;
@@ -67,6 +73,7 @@ struct File<'a> {
     space: Space,
     /// For each frame of the file the place of the take's; `None` for a sample that is missing.
     frames: Vec<Option<usize>>,
+    events: &'a [(usize, String)],
 }
 
 impl File<'_> {
@@ -140,7 +147,7 @@ impl File<'_> {
 
     /// Events with their times from the first frame, in minutes and seconds.
     fn events(&self, to: &mut Parameters) {
-        let events = &self.take.events()[..self.take.events().len().min(MOST)];
+        let events = &self.events[..self.events.len().min(MOST)];
         let names: Vec<_> = events.iter().map(|(_, name)| name).collect();
         let times: Vec<f32> = events
             .iter()
@@ -190,8 +197,8 @@ impl File<'_> {
         if self.frames.len() == self.take.len() {
             left_out = left_out.and(FileFormat::closes_up(self.take));
         }
-        if let Some(more @ 1..) = self.take.events().len().checked_sub(MOST) {
-            left_out.push(format!("the last {more} of {} events", self.take.events().len()));
+        if let Some(more @ 1..) = self.events.len().checked_sub(MOST) {
+            left_out.push(format!("the last {more} of {} events", self.events.len()));
         }
         left_out
     }
