@@ -7,7 +7,7 @@ use posewire::endpoint::{Endpoint, Walk};
 use posewire::file::Recording;
 use posewire::sink::TakeSink;
 use posewire::source::PlaybackOptions;
-use posewire::source::synthetic::{self, WalkOptions};
+use posewire::source::synthetic;
 use posewire::{Session, Sink, Source};
 use posewire_motion::Take;
 use std::sync::Arc;
@@ -15,14 +15,7 @@ use std::time::Duration;
 
 /// The walker's people, for so long by their own clock.
 pub(super) fn walk(walk: &Walk, duration: Option<Duration>, stops: &Stops) -> anyhow::Result<Vec<Recording>> {
-    let options = WalkOptions {
-        people: walk.people.into(),
-        rate: walk.rate_hz,
-        props: walk.props.into(),
-        fingers: walk.fingers,
-        ..WalkOptions::default()
-    };
-    let walk = synthetic::Walk::new(&options);
+    let walk = synthetic::Walk::new(&walk.into());
     let seconds = duration.unwrap_or_default().as_secs_f64();
     let frames = (seconds * walk.rate()).ceil().max(1.0) as u32;
     let person = |(person, subject)| {
