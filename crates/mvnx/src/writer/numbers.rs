@@ -197,6 +197,6 @@ fn center_of_mass(center: &CenterOfMass) -> impl Iterator<Item = f64> {
 }
 
 /// A turn and its inverse leave of a zero what `f64` rounds off, of either sign.
-fn without_noise(number: f64) -> f64 {
+pub(super) fn without_noise(number: f64) -> f64 {
     if number.abs() < 1e-12 { 0.0 } else { number }
 }

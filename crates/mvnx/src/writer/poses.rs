@@ -1,6 +1,6 @@
 //! The poses of calibration as either version has them.
 
-use super::numbers::{Found, Numbers};
+use super::numbers::{Found, Numbers, without_noise};
 use super::{Printer, Style, Version, clock};
 use crate::Error;
 use crate::section::{Layout, Section};
@@ -88,19 +88,11 @@ fn in_own_axes(pose: &BodyPose, skeleton: &Skeleton) -> BodyPose {
     let turn = |(q, isb): (&Option<DQuat>, DQuat)| match *q {
         // Six decimals are kept where there is nothing to turn.
         Some(q) if isb == DQuat::IDENTITY => Some(q),
-        q => q.map(|q| without_noise(q * isb.conjugate())),
+        q => q.map(|q| DQuat::from_array((q * isb.conjugate()).to_array().map(without_noise))),
     };
     let axes = skeleton.segments.iter().map(|segment| segment.isb);
     BodyPose {
         orientation: pose.orientation.iter().zip(axes).map(turn).collect(),
         position: pose.position.clone(),
     }
-}
-
-/// A turn leaves of a zero what `f64` rounds off, of either sign.
-fn without_noise(q: DQuat) -> DQuat {
-    DQuat::from_array(
-        q.to_array()
-            .map(|number| if number.abs() < 1e-12 { 0.0 } else { number }),
-    )
 }
