@@ -6,12 +6,11 @@
 pub(crate) fn read_numbers<'a>(text: &'a [u8], to: &mut Vec<f64>) -> Result<(), BadNumber<'a>> {
     let mut rest = text;
     loop {
-        rest = rest.trim_ascii_start();
+        rest = rest[read_millionths(rest, to)..].trim_ascii_start();
         if rest.is_empty() {
             return Ok(());
         }
-        let number = six_decimals(rest).or_else(|| fixed_point(rest)).or_else(|| any(rest));
-        let (value, length) = number.ok_or_else(|| BadNumber {
+        let (value, length) = fixed_point(rest).or_else(|| any(rest)).ok_or_else(|| BadNumber {
             before: text.len() - rest.len(),
             word: word(rest),
         })?;
@@ -36,37 +35,56 @@ pub(crate) fn count_words(text: &[u8]) -> usize {
         .count()
 }
 
-/// A number as MVN writes it, and its length: up to three digits, a point, six digits. Others are left to the next way.
+/// Reads up to 128 numbers at the beginning that stand as MVN writes them, with six decimals and one space between two; how
+/// many bytes they take.
 ///
-/// Signs and lengths come in any order, so that the way through here does not depend on them: the digits are looked at
-/// together, and added in pairs, the pairs in fours, the fours in eights.
-fn six_decimals(text: &[u8]) -> Option<(f64, usize)> {
-    let negative = text[0] == b'-';
-    let start = usize::from(negative);
-    let first = u64::from_le_bytes(*text.get(start..)?.first_chunk()?);
-    let points = first ^ POINTS;
-    let whole = (points.wrapping_sub(ONES) & !points & HIGHEST_BITS).trailing_zeros() as usize / 8;
-    let end = start + whole + 7;
-    if !(1..=3).contains(&whole) || text.get(end).is_some_and(|byte| !byte.is_ascii_whitespace()) {
-        return None;
+/// The divisions come last, so that they are done two at a time.
+fn read_millionths(text: &[u8], to: &mut Vec<f64>) -> usize {
+    let (mut numbers, mut count, mut at) = ([0; 128], 0, 0);
+    for number in &mut numbers {
+        let Some((millionths, length)) = text.get(at..).and_then(six_decimals) else {
+            break;
+        };
+        if text.get(at + length).is_some_and(|&byte| byte != b' ') {
+            break;
+        }
+        *number = millionths;
+        (at, count) = (at + length + 1, count + 1);
     }
-    let last = u64::from_le_bytes(*text.get(end - 8..end)?.first_chunk()?);
-    let fraction = eight_digits(last & !0xffff | ZEROS & 0xffff)?;
-    let missing = 64 - 8 * whole;
-    let whole = eight_digits(first << missing | ZEROS & !(u64::MAX << missing))?;
-    let value = (whole * 1_000_000 + fraction) as f64 / 1e6;
-    Some((f64::from_bits(value.to_bits() | u64::from(negative) << 63), end))
+    to.extend(numbers[..count].iter().map(|number| {
+        let millionths = f64::from_bits(TWO_TO_52.to_bits() | number & !SIGN) - TWO_TO_52;
+        f64::from_bits((millionths / 1e6).to_bits() | number & SIGN)
+    }));
+    at.min(text.len())
 }
 
-/// The value of eight digits, the first of which is the lowest byte.
-fn eight_digits(word: u64) -> Option<u64> {
-    let ones = word ^ ZEROS;
-    if (ones | ones.wrapping_add(SIXES)) & HIGH_HALVES != 0 {
+/// A number as MVN writes it, and its length: up to four digits or a sign and three, a point, six digits. Others are left
+/// to the next way. It is in millionths, its sign the highest bit.
+///
+/// Signs and lengths come in any order, so that the way through here does not depend on them. Where the next number begins
+/// depends on the point alone, so that the processor converts several at once. The digits are looked at together, and
+/// added in pairs, the pairs in fours, the fours in eights.
+fn six_decimals(text: &[u8]) -> Option<(u64, usize)> {
+    let first = u64::from_le_bytes(*text.first_chunk()?);
+    let points = first ^ POINTS;
+    let point = (points.wrapping_sub(ONES) & !points & HIGHEST_BITS).trailing_zeros() as usize / 8;
+    if !(1..=4).contains(&point) {
         return None;
     }
-    let pairs = (ones * 10 + (ones >> 8)) & 0x00ff_00ff_00ff_00ff;
+    let last = u64::from_le_bytes(*text.get(point - 1..)?.first_chunk()?);
+    let negative = first as u8 == b'-';
+    let minus = if negative { u32::from(b'-' ^ b'0') } else { 0 };
+    let whole = (first as u32 ^ ZEROS as u32 ^ minus) << (32 - 8 * point);
+    let decimals = (last ^ ZEROS) >> 16;
+    let (eight, two) = (decimals << 32 | u64::from(whole), decimals >> 32);
+    if (eight | eight.wrapping_add(SIXES) | two | two.wrapping_add(SIXES)) & HIGH_HALVES != 0 {
+        return None;
+    }
+    let pairs = (eight * 10 + (eight >> 8)) & 0x00ff_00ff_00ff_00ff;
     let fours = (pairs * 100 + (pairs >> 16)) & 0x0000_ffff_0000_ffff;
-    Some((fours * 10_000 + (fours >> 32)) & 0xffff_ffff)
+    let eight = (fours * 10_000 + (fours >> 32)) & 0xffff_ffff;
+    let two = (two * 10 + (two >> 8)) & 0xff;
+    Some((eight * 100 + two | u64::from(negative) << 63, point + 7))
 }
 
 /// A number of at most 15 digits without an exponent, and its length: MVN writes no others.
@@ -119,6 +137,9 @@ const ONES: u64 = u64::from_le_bytes([1; 8]);
 /// What makes the high half of a byte other than zero when the low half is more than 9.
 const SIXES: u64 = u64::from_le_bytes([6; 8]);
 const HIGH_HALVES: u64 = u64::from_le_bytes([0xf0; 8]);
+const SIGN: u64 = 1 << 63;
+/// Its lowest bits are a whole number, which it is the sum with.
+const TWO_TO_52: f64 = 4_503_599_627_370_496.0;
 const HIGHEST_BITS: u64 = u64::from_le_bytes([0x80; 8]);
 const POWERS_OF_TEN: [f64; 16] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
@@ -199,7 +220,9 @@ mod tests {
             let mut bytes = text.into_bytes();
             let place = place % bytes.len();
             bytes[place] = byte;
-            if let Some((value, length)) = six_decimals(&bytes) {
+            let mut found = Vec::new();
+            let length = read_millionths(&bytes, &mut found);
+            if let Some(value) = found.first() {
                 let other = fixed_point(&bytes).map(|(value, length)| (value.to_bits(), length));
                 prop_assert_eq!(other, Some((value.to_bits(), length)));
             }
