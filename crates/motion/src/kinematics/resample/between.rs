@@ -1,13 +1,16 @@
 //! What lies between two samples.
 
-use crate::rotation::slerp;
-use crate::{CenterOfMass, Frame, Marker, Subject, Timecode};
+use crate::kinematics::{ergonomic_angles, joint_angles};
+use crate::rotation::{Sequence, slerp};
+use crate::{CenterOfMass, Frame, Marker, Skeleton, Subject, Timecode};
 use glam::{DQuat, DVec3};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// The sample at `share` of the way from `a` (0) to `b` (1), without events.
+///
+/// Angles are those of the orientations between, interpolated where the orientations do not tell them.
 pub(super) fn between(a: &Frame, b: &Frame, share: f64, subject: Arc<Subject>) -> Frame {
     let near = if share < 0.5 { a } else { b };
     let vectors = |a: &[Option<DVec3>], b: &[Option<DVec3>]| entries(a, b, |a, b| Some(a.lerp(b, share)));
@@ -15,7 +18,7 @@ pub(super) fn between(a: &Frame, b: &Frame, share: f64, subject: Arc<Subject>) -
     let turns = |a: &[Option<DQuat>], b: &[Option<DQuat>]| {
         entries(a, b, |a, b| Some(slerp(a, b, share)).filter(|turn| turn.is_finite()))
     };
-    Frame {
+    let mut frame = Frame {
         subject,
         sample: near.sample,
         time: near.time,
@@ -40,8 +43,31 @@ pub(super) fn between(a: &Frame, b: &Frame, share: f64, subject: Arc<Subject>) -
         contacts: near.contacts.clone(),
         markers: between_markers(&near.markers, &a.markers, &b.markers, share),
         events: Vec::new(),
-    }
+    };
+    renew_angles(&mut frame);
+    frame
 }
+
+/// Works the tracked angles out again: on the way between two orientations, angles do not go on evenly.
+fn renew_angles(frame: &mut Frame) {
+    let (skeleton, orientation) = (&frame.subject.skeleton, &frame.orientation);
+    let mut renewed = Vec::new();
+    let mut renew = |angles: &mut Vec<Option<DVec3>>, sequence, compute: Compute| {
+        if !angles.is_empty() {
+            compute(skeleton, orientation, sequence, &mut renewed);
+            for (angle, renewed) in angles.iter_mut().zip(&renewed) {
+                *angle = angle.and(renewed.or(*angle));
+            }
+        }
+    };
+    renew(&mut frame.joint_angles, Sequence::Zxy, joint_angles);
+    renew(&mut frame.joint_angles_xzy, Sequence::Xzy, joint_angles);
+    renew(&mut frame.ergonomic_angles, Sequence::Zxy, ergonomic_angles);
+    renew(&mut frame.ergonomic_angles_xzy, Sequence::Xzy, ergonomic_angles);
+}
+
+/// [`joint_angles`] or [`ergonomic_angles`].
+type Compute = fn(&Skeleton, &[Option<DQuat>], Sequence, &mut Vec<Option<DVec3>>);
 
 /// Entry by entry, where both are tracked; nothing when one of the samples lacks the section.
 fn entries<T: Copy>(a: &[Option<T>], b: &[Option<T>], mix: impl Fn(T, T) -> Option<T>) -> Vec<Option<T>> {

@@ -14,8 +14,9 @@ use std::time::Duration;
 /// The new samples are those of a grid that begins with sample 0 of the source: sample `k` of it is at `k / rate` seconds,
 /// which is also its [`time`](Frame::time), so that a clock that jitters is made uniform. Between two samples of the source
 ///
-/// - vectors and angles are interpolated linearly, angles the shorter way round, so that near the turn-over angles
-///   are better worked out again from the orientations ([`joint_angles`](super::joint_angles));
+/// - vectors are interpolated linearly, velocities and accelerations too;
+/// - angles are worked out from the new orientations ([`joint_angles`](super::joint_angles)); those that these do not
+///   tell are interpolated, the shorter way round;
 /// - orientations turn at a constant angular velocity ([`slerp`](crate::rotation::slerp)), and their signs go on from one
 ///   sample to the next;
 /// - contacts, and which markers there are, are those of the nearer sample;

@@ -1,4 +1,5 @@
 use super::*;
+use crate::kinematics::complete;
 use crate::{DQuat, DVec3, Skeleton};
 use proptest::prelude::*;
 
@@ -47,6 +48,52 @@ fn each_fourth_sample_of_240_makes_60() {
     assert_eq!(x, [8.0, 12.0, 16.0, 20.0]);
     assert_eq!(done[1].time, Duration::from_millis(50));
     assert_eq!(done[1].subject.rate, Some(60.0));
+}
+
+#[test]
+fn angles_between_are_those_of_the_orientations_between() {
+    let subject = subject();
+    let bent = |sample: u32| {
+        let mut frame = moving(&subject, sample);
+        for (segment, turn) in frame.orientation.iter_mut().enumerate() {
+            let angle = 0.4 * f64::from(sample) * (segment as f64).sin();
+            *turn = Some(DQuat::from_euler(glam::EulerRot::ZXY, angle, 1.1 * angle, 0.3 * angle));
+        }
+        complete(&mut frame);
+        frame.ergonomic_angles[5] = None;
+        frame
+    };
+    for frame in resampled(60.0, 240.0, (0..6).map(bent)) {
+        let mut expected = Frame::new(Arc::clone(&subject));
+        expected.orientation.clone_from(&frame.orientation);
+        complete(&mut expected);
+        expected.ergonomic_angles[5] = None;
+        for (found, expected) in [
+            (&frame.joint_angles, &expected.joint_angles),
+            (&frame.joint_angles_xzy, &expected.joint_angles_xzy),
+            (&frame.ergonomic_angles, &expected.ergonomic_angles),
+            (&frame.ergonomic_angles_xzy, &expected.ergonomic_angles_xzy),
+        ] {
+            let same = |(a, b): (&Option<DVec3>, &Option<DVec3>)| match (a, b) {
+                (Some(a), Some(b)) => (a - b).length() < 1e-9,
+                (a, b) => a.is_none() && b.is_none(),
+            };
+            assert!(found.iter().zip(expected).all(same), "sample {}", frame.sample);
+        }
+    }
+}
+
+#[test]
+fn angles_without_orientations_are_interpolated() {
+    let subject = subject();
+    let frames = (0..3).map(|sample| {
+        let mut frame = Frame::new(Arc::clone(&subject));
+        frame.sample = sample;
+        frame.joint_angles = vec![Some(DVec3::X * 0.1 * f64::from(sample)); 22];
+        frame
+    });
+    let done = resampled(60.0, 120.0, frames);
+    assert!((done[1].joint_angles[7].unwrap().x - 0.05).abs() < 1e-12);
 }
 
 #[test]
