@@ -208,6 +208,62 @@ fn bvhio_plays_the_skeleton() {
 }
 
 #[test]
+fn bvhio_turns_rigid_bones_as_they_were_measured() {
+    let joints = [
+        ("Hips", "Pelvis"),
+        ("LeftShoulder", "LeftUpperArm"),
+        ("RightElbow", "RightForeArm"),
+        ("LeftToe", "LeftToe"),
+    ];
+    let wanted = joints.map(|(joint, _)| joint);
+    for_all_takes("bvhio", "files/bvh.py", "bvh", &[], &wanted, |take, report| {
+        let orientation = take.column(Section::Orientation).unwrap();
+        for (joint, segment) in joints {
+            let segment = take.subject.skeleton.segment(segment).unwrap();
+            let turns = report["turns"][joint].as_array().unwrap();
+            assert_eq!(turns.len(), take.len());
+            for (frame, found) in turns.iter().enumerate() {
+                let turn = orientation.quaternion(frame, segment).unwrap().normalize();
+                // Y up: X is left, Y up, Z forward.
+                let expected = [turn.w, turn.y, turn.z, turn.x];
+                let dot: f64 = numbers(found).iter().zip(expected).map(|(a, b)| a * b).sum();
+                assert!((dot.abs() - 1.0).abs() < 1e-5, "{joint} in frame {frame}: {found}");
+            }
+        }
+        for (frame, place) in vectors(&report["joints"]["Hips"]).into_iter().enumerate() {
+            let place = place.map(|place| DVec3::new(place.z, place.x, place.y) / 100.0);
+            assert_near(
+                place,
+                origin(take, frame, "Pelvis"),
+                2e-6,
+                &format!("hips in frame {frame}"),
+            );
+        }
+    });
+}
+
+#[test]
+fn opensim_reads_joint_angles() {
+    let wanted = ["RightElbow_abduction", "RightElbow_rotation", "RightElbow_flexion"];
+    for_all_takes("opensim", "files/tables.py", "mot", &[], &wanted, |take, report| {
+        assert_eq!(report["rows"], take.len());
+        assert_eq!(report["metadata"]["inDegrees"], "yes");
+        let angles = take.column(Section::JointAngles).unwrap();
+        for (axis, name) in wanted.iter().enumerate() {
+            let found = numbers(&report["columns"][name]);
+            assert_eq!(found.len(), take.len());
+            for (frame, found) in found.into_iter().enumerate() {
+                let expected = angles.vector(frame, ELBOW).unwrap()[axis].to_degrees();
+                assert!(
+                    (found - expected).abs() < 1e-6,
+                    "{name} in frame {frame}: expected {expected}, found {found}"
+                );
+            }
+        }
+    });
+}
+
+#[test]
 fn opensim_reads_markers() {
     for_all_takes(
         "opensim",
