@@ -124,10 +124,13 @@ fn options_may_stand_anywhere() {
 
 #[test]
 fn every_section_can_have_a_file() {
-    let folder = with_take(2);
+    // A file of all sections is none of them.
+    let folder = folder(&[("take.mvnx", small_take(2).as_bytes()), ("take.csv", b"old")]);
     let ended = convert(&folder, &["take.mvnx", "take.csv", "--csv-sheets"]);
     assert_eq!(ended.code, Some(0), "{}", ended.err);
+    assert_eq!(text(&folder, "take.csv"), "old");
     let expected = [
+        "take.csv",
         "take.mvnx",
         "take_frames.csv",
         "take_orientation.csv",
@@ -136,6 +139,12 @@ fn every_section_can_have_a_file() {
     assert_eq!(names(folder.path()), expected);
     assert!(text(&folder, "take_position.csv").starts_with("Frame,Pelvis x,Pelvis y,Pelvis z,L5 x"));
     assert!(text(&folder, "take_frames.csv").starts_with("Frame,Time,Timecode,"));
+    assert_refused(
+        &folder,
+        &["take.mvnx", "take.csv", "--csv-sheets"],
+        2,
+        "take_position.csv is there already",
+    );
 }
 
 #[test]

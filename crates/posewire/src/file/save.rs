@@ -93,20 +93,28 @@ fn write_part(
 }
 
 impl Target {
-    /// Looks whether a file could be saved here, before the work of making it. One file for each section is looked at when
-    /// it is saved.
+    /// Looks whether a file could be saved here, before the work of making it. Of one file for each section the folder is
+    /// looked at, and each file when it is saved.
     ///
     /// # Errors
     /// [`Error::Exists`] when a file is there that is not to be replaced; [`Error::Write`] when what is there is no file or
     /// is read-only, or when its folder is not there.
-    pub fn check(&self) -> Result<()> {
+    pub fn check(&self, options: &WriteOptions) -> Result<()> {
+        if has_parts(self, options) {
+            return check_folder(&self.path);
+        }
         check(&self.path, self.overwrite)
     }
 }
 
+/// Whether each section has a file.
+fn has_parts(target: &Target, options: &WriteOptions) -> bool {
+    target.format == FileFormat::Csv && options.csv.file_per_section
+}
+
 /// Every file to write, and what goes into it.
 fn parts(target: &Target, recording: &Recording, options: &WriteOptions) -> Vec<(PathBuf, WriteOptions)> {
-    if target.format != FileFormat::Csv || !options.csv.file_per_section {
+    if !has_parts(target, options) {
         return vec![(target.path.clone(), options.clone())];
     }
     let sections = options.sections_of(&recording.take);
@@ -137,12 +145,20 @@ fn with_part(path: &Path, part: &str) -> PathBuf {
     path.with_file_name(name)
 }
 
-fn check(path: &Path, overwrite: bool) -> Result<()> {
-    let refuse =
-        |kind, reason: &str| Error::write(path.display().to_string(), &io::Error::new(kind, reason.to_owned()));
-    if !folder_of(path).is_dir() {
-        return Err(refuse(io::ErrorKind::NotFound, "its folder is not there"));
+fn check_folder(path: &Path) -> Result<()> {
+    if folder_of(path).is_dir() {
+        return Ok(());
     }
+    Err(refused(path, io::ErrorKind::NotFound, "its folder is not there"))
+}
+
+fn refused(path: &Path, kind: io::ErrorKind, reason: &str) -> Error {
+    Error::write(path.display().to_string(), &io::Error::new(kind, reason.to_owned()))
+}
+
+fn check(path: &Path, overwrite: bool) -> Result<()> {
+    let refuse = |kind, reason| refused(path, kind, reason);
+    check_folder(path)?;
     let Ok(there) = fs::metadata(path) else {
         return Ok(());
     };
@@ -280,22 +296,26 @@ mod tests {
             format: FileFormat::Bvh,
             overwrite,
         };
-        assert_eq!(target("new.bvh", false).check(), Ok(()));
+        let options = WriteOptions::default();
+        assert_eq!(target("new.bvh", false).check(&options), Ok(()));
         fs::write(folder.path().join("old.bvh"), "").unwrap();
-        assert!(matches!(target("old.bvh", false).check(), Err(Error::Exists { .. })));
-        assert_eq!(target("old.bvh", true).check(), Ok(()));
+        assert!(matches!(
+            target("old.bvh", false).check(&options),
+            Err(Error::Exists { .. })
+        ));
+        assert_eq!(target("old.bvh", true).check(&options), Ok(()));
         fs::create_dir(folder.path().join("folder.bvh")).unwrap();
         for (name, reason) in [
             ("folder.bvh", "it is a folder"),
             ("nowhere/new.bvh", "its folder is not there"),
         ] {
-            let error = target(name, true).check().unwrap_err();
+            let error = target(name, true).check(&options).unwrap_err();
             assert!(error.to_string().ends_with(reason), "{error}");
         }
         let mut permissions = fs::metadata(folder.path().join("old.bvh")).unwrap().permissions();
         permissions.set_readonly(true);
         fs::set_permissions(folder.path().join("old.bvh"), permissions).unwrap();
-        let error = target("old.bvh", true).check().unwrap_err();
+        let error = target("old.bvh", true).check(&options).unwrap_err();
         assert!(error.to_string().ends_with("it is read-only"), "{error}");
     }
 

@@ -69,7 +69,7 @@ impl Plan {
             fs::create_dir_all(path).map_err(|error| posewire::Error::write(path.display().to_string(), &error))?;
         }
         for job in &plan.jobs {
-            job.target(None).check()?;
+            job.target(None).check(&plan.writing)?;
         }
         Ok(plan)
     }
