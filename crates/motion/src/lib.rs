@@ -45,5 +45,5 @@ pub use section::{Per, Section};
 pub use skeleton::{Connector, ErgonomicAngle, Joint, Point, Segment, SegmentKind, Skeleton};
 pub use space::{Handedness, Space, Unit, Up};
 pub use subject::{Color, Subject};
-pub use take::{Frames, Take};
+pub use take::{Frames, Reordered, Take};
 pub use time::{Stamp, Timecode};

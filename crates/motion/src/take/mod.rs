@@ -3,12 +3,14 @@
 mod contacts;
 mod lists;
 mod markers;
+mod order;
 mod read;
 
 use crate::{Column, Error, Frame, Section, Stamp, Subject, Timecode};
 use contacts::Contacts;
 use lists::List;
 use markers::Markers;
+pub use order::Reordered;
 pub use read::Frames;
 use std::ops::Range;
 use std::sync::Arc;
