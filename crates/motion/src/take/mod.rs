@@ -5,6 +5,7 @@ mod lists;
 mod markers;
 mod order;
 mod read;
+mod unused;
 
 use crate::{Column, Error, Frame, Section, Stamp, Subject, Timecode};
 use contacts::Contacts;

@@ -23,9 +23,15 @@ impl TakeSink {
     ///
     /// The rate of each is the one that its subject states, else that of the source's clock. Where a source sends each
     /// fourth of its samples, as MVN does at 60 of 240 Hz, the samples that are there are numbered on and the rate is theirs.
+    /// Sensors of which nothing was ever tracked, and foot contacts that never came, are not in the skeleton.
     pub fn take(&self) -> Vec<Take> {
         let takes = std::mem::take(&mut *self.lock());
-        takes.into_iter().map(paced).collect()
+        let finished = takes.into_iter().map(|take| {
+            let mut take = paced(take);
+            take.remove_unused();
+            take
+        });
+        finished.collect()
     }
 
     fn lock(&self) -> MutexGuard<'_, Vec<Take>> {
@@ -143,6 +149,22 @@ mod tests {
         let takes = kept([8, 12, 20].map(|sample| frame(&subject, sample)).to_vec());
         assert_eq!((takes.len(), takes[0].rate), (1, 60.0));
         assert_eq!(takes[0].samples(), [2, 3, 5]);
+    }
+
+    #[test]
+    fn sensors_and_contacts_that_never_came_are_not_in_the_skeleton() {
+        let subject = Arc::new(Subject::new("Ada", Skeleton::standard(0, false)));
+        let frames = (0..3).map(|sample| {
+            let mut frame = frame(&subject, sample);
+            frame.sensor_free_acceleration = vec![None; 17];
+            frame.sensor_free_acceleration[..11].fill(Some(DVec3::Z));
+            frame
+        });
+        let take = kept(frames.collect()).remove(0);
+        let skeleton = &take.subject.skeleton;
+        assert_eq!(skeleton.sensors, subject.skeleton.sensors[..11]);
+        assert_eq!(skeleton.contacts.len(), 0);
+        assert_eq!(take.frame(2).sensor_free_acceleration, [Some(DVec3::Z); 11]);
     }
 
     #[test]
