@@ -147,7 +147,8 @@ fn write(
     let saved = save_take(plan, job, name, &recording, stops)?;
     let frames = recording.take.len() as u64;
     let report = Report::new(job, frames, saved, began);
-    Ok(report.computed(&computed).damaged(recording.damage.take()))
+    let report = report.computed(&computed).damaged(recording.damage.take());
+    Ok(report.reordered(recording.reordered))
 }
 
 /// Saves a take. Where a file is there already, one of a stream gets a number into its name: it could not be had again.

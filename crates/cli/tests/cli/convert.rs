@@ -62,6 +62,29 @@ fn assert_refused(folder: &TempDir, arguments: &[&str], code: i32, words: &str) 
 }
 
 #[test]
+fn samples_out_of_order_get_the_times_of_their_numbers() {
+    let take = small_take(5);
+    let (head, frames) = take.split_at(take.find("\t\t\t<frame time=\"0\" index=\"0\"").unwrap());
+    let (frames, tail) = frames.split_at(frames.rfind("\t\t</frames>").unwrap());
+    let frames: Vec<_> = frames.split_inclusive("</frame>\n").collect();
+    let mixed: String = [0, 1, 3, 2, 3, 4].map(|place: usize| frames[place]).concat();
+    let mixed = format!("{head}{mixed}{tail}");
+    let folder = folder(&[("take.mvnx", take.as_bytes()), ("mixed.mvnx", mixed.as_bytes())]);
+    for ending in ["trc", "bvh", "csv"] {
+        assert_eq!(
+            convert(&folder, &["take.mvnx", &format!("take.{ending}")]).code,
+            Some(0)
+        );
+        let ended = convert(&folder, &["mixed.mvnx", &format!("mixed.{ending}")]);
+        let words = "\n  order     1 sample was out of order and put in order, 1 double left out\n";
+        assert!(ended.err.contains(words), "{ending}: {}", ended.err);
+        assert!(!ended.err.contains("missing"), "{ending}: {}", ended.err);
+        let [expected, found] = ["take", "mixed"].map(|name| text(&folder, &format!("{name}.{ending}")));
+        assert_eq!(found.replace("mixed.", "take."), expected, "{ending}");
+    }
+}
+
+#[test]
 fn a_take_becomes_a_file_and_what_is_missing_in_it_is_said() {
     let folder = with_take(3);
     let ended = convert(&folder, &["take.mvnx", "take.bvh"]);

@@ -185,8 +185,11 @@ impl Other {
     }
 }
 
-/// Sample numbers between the first and the last that have no frame.
+/// Sample numbers between the first and the last that have no frame. Numbers out of order tell none.
 fn missing_samples(take: &Take) -> u64 {
+    if !take.samples().is_sorted_by(|before, after| before < after) {
+        return 0;
+    }
     let steps = take.samples().windows(2).map(|pair| pair[1].saturating_sub(pair[0]));
     steps.map(|step| u64::from(step.saturating_sub(1))).sum()
 }

@@ -54,7 +54,7 @@ pub use save::{Saved, Target, save};
 use crate::endpoint::FileFormat;
 use crate::{Error, Result};
 use output::Output;
-use posewire_motion::{Column, Section, Space, Take};
+use posewire_motion::{Column, Reordered, Section, Space, Take};
 use posewire_mvnx::Document;
 use problem::Problem;
 
@@ -68,15 +68,20 @@ pub struct Recording {
     pub document: Option<Document>,
     /// What ended the file before its end, if something did and the frames before it were to be used.
     pub damage: Option<String>,
+    /// Which samples stood out of order in the source, or twice.
+    pub reordered: Reordered,
 }
 
 impl From<Take> for Recording {
-    /// A take that comes from nowhere in particular.
-    fn from(take: Take) -> Self {
+    /// A take that comes from nowhere in particular, its samples [put in order](Take::put_in_order): most formats have their
+    /// frames at equal times.
+    fn from(mut take: Take) -> Self {
+        let reordered = take.put_in_order();
         Self {
             take,
             document: None,
             damage: None,
+            reordered,
         }
     }
 }

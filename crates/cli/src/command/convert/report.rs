@@ -3,7 +3,7 @@
 use super::plan::Job;
 use crate::plain::{cut, plural, printable};
 use posewire::file::Saved;
-use posewire_motion::Section;
+use posewire_motion::{Reordered, Section};
 use serde::Serialize;
 use std::fmt;
 use std::time::Instant;
@@ -18,6 +18,7 @@ pub(super) struct Report {
     seconds: f64,
     computed: Vec<&'static str>,
     damage: Option<String>,
+    reordered: Reordered,
 }
 
 /// The same for programs.
@@ -32,6 +33,9 @@ pub(super) struct ConvertRecord<'a> {
     left_out: Vec<&'a str>,
     computed: &'a [&'static str],
     damage: Option<&'a str>,
+    moved: usize,
+    doubles: usize,
+    conflicts: usize,
 }
 
 #[derive(Debug, Serialize)]
@@ -50,6 +54,7 @@ impl Report {
             seconds: began.elapsed().as_secs_f64(),
             computed: Vec::new(),
             damage: None,
+            reordered: Reordered::default(),
         }
     }
 
@@ -62,6 +67,11 @@ impl Report {
     /// With what ended the input before its end.
     pub(super) fn damaged(self, damage: Option<String>) -> Self {
         Self { damage, ..self }
+    }
+
+    /// With which samples of the input stood out of order.
+    pub(super) fn reordered(self, reordered: Reordered) -> Self {
+        Self { reordered, ..self }
     }
 
     pub(super) fn record(&self) -> ConvertRecord<'_> {
@@ -79,6 +89,9 @@ impl Report {
             left_out: self.saved.left_out.iter().collect(),
             computed: &self.computed,
             damage: self.damage.as_deref(),
+            moved: self.reordered.moved,
+            doubles: self.reordered.doubles,
+            conflicts: self.reordered.conflicts,
         }
     }
 }
@@ -109,10 +122,28 @@ impl fmt::Display for Report {
         let left_out: Vec<_> = self.saved.left_out.iter().map(printable).collect();
         let computed: Vec<_> = self.computed.iter().map(|section| section.replace('_', " ")).collect();
         let damage: Vec<_> = self.damage.iter().map(|damage| printable(damage)).collect();
+        write_list(f, "order", &order(self.reordered))?;
         write_list(f, "left out", &left_out)?;
         write_list(f, "computed", &computed)?;
         write_list(f, "damaged", &damage)
     }
+}
+
+/// Which samples stood out of order, and what was done about it.
+fn order(found: Reordered) -> Vec<String> {
+    let samples = |count: usize, one: &str, several: &str| {
+        let verb = if count == 1 { one } else { several };
+        (count > 0).then(|| format!("{} {verb}", plural(count as u64, "sample")))
+    };
+    if let Some(conflicts) = samples(found.conflicts, "has", "have") {
+        return vec![
+            format!("{conflicts} the number of another with other content"),
+            "all stand one after the other as they came".to_owned(),
+        ];
+    }
+    let moved = samples(found.moved, "was", "were").map(|moved| format!("{moved} out of order and put in order"));
+    let doubles = (found.doubles > 0).then(|| format!("{} left out", plural(found.doubles as u64, "double")));
+    moved.into_iter().chain(doubles).collect()
 }
 
 /// A list in lines that fit on a page.
@@ -166,6 +197,27 @@ mod tests {
         let expected = format!("\n  left out  {},\n            {}, c", "a".repeat(60), "b".repeat(30));
         assert_eq!(List(things).to_string(), expected);
         assert_eq!(List(Vec::new()).to_string(), "");
+    }
+
+    #[test]
+    fn samples_out_of_order_are_told() {
+        let found = |moved, doubles, conflicts| {
+            let order = order(Reordered {
+                moved,
+                doubles,
+                conflicts,
+            });
+            order.join(", ")
+        };
+        assert_eq!(found(0, 0, 0), "");
+        assert_eq!(
+            found(2, 1, 0),
+            "2 samples were out of order and put in order, 1 double left out"
+        );
+        assert_eq!(
+            found(5, 0, 1),
+            "1 sample has the number of another with other content, all stand one after the other as they came"
+        );
     }
 
     #[test]
