@@ -53,7 +53,7 @@ pub(crate) struct Piece<'a> {
 }
 
 impl Markup {
-    /// Nothing yet, and at most `limit` bytes of text.
+    /// Nothing yet, and at most `limit` bytes of text and of what tells its pieces apart.
     pub(crate) fn new(limit: usize) -> Self {
         Self {
             text: String::new(),
@@ -138,7 +138,8 @@ impl Markup {
     /// Adds a piece. Past the limit, elements are passed over as wholes, so that what is kept stays balanced.
     pub(crate) fn push(&mut self, kind: Kind, text: &str) {
         let ends = matches!(kind, Kind::End | Kind::EndOfEmpty);
-        let full = self.text.len() + text.len() > self.limit;
+        // A piece without text takes memory too.
+        let full = self.text.len() + text.len() + self.marks.len() * size_of::<Mark>() > self.limit;
         if ends && self.skipped > 0 {
             self.skipped -= 1;
         } else if self.skipped > 0 || (full && !ends) {
@@ -312,7 +313,7 @@ mod tests {
 
     #[test]
     fn past_the_limit_elements_are_left_out_as_wholes() {
-        let mut markup = Markup::new(4);
+        let mut markup = Markup::new(4 + size_of::<Mark>());
         markup.push(Kind::Start, "a");
         markup.push(Kind::Start, "long");
         markup.push(Kind::Start, "b");
@@ -327,8 +328,17 @@ mod tests {
     }
 
     #[test]
+    fn pieces_without_text_are_bounded_too() {
+        let mut markup = Markup::new(1000);
+        for _ in 0..100_000 {
+            markup.push(Kind::Comment, "");
+        }
+        assert!(markup.pieces().count() <= 1000 && markup.left_out() > 90_000);
+    }
+
+    #[test]
     fn the_piece_added_last_can_be_taken_back() {
-        let mut markup = Markup::new(5);
+        let mut markup = Markup::new(4 + size_of::<Mark>());
         markup.push(Kind::Start, "ab");
         markup.push(Kind::Start, "c");
         markup.take_back(Kind::Start);
