@@ -84,7 +84,7 @@ fn six_decimals(text: &[u8]) -> Option<(u64, usize)> {
     let fours = (pairs * 100 + (pairs >> 16)) & 0x0000_ffff_0000_ffff;
     let eight = (fours * 10_000 + (fours >> 32)) & 0xffff_ffff;
     let two = (two * 10 + (two >> 8)) & 0xff;
-    Some((eight * 100 + two | u64::from(negative) << 63, point + 7))
+    Some(((eight * 100 + two) | (u64::from(negative) << 63), point + 7))
 }
 
 /// A number of at most 15 digits without an exponent, and its length: MVN writes no others.
