@@ -9,7 +9,7 @@ use std::sync::Arc;
 /// Reads the rest of a file into memory: the frames of the reader's iteration, in columns.
 ///
 /// It uses as many threads as [`Reader::threads`] says; reading the bytes and decompressing them is done on the caller's.
-/// Besides the columns some twenty MiB are in use.
+/// Besides the columns some ten to twenty MiB are in use.
 ///
 /// # Errors
 /// What ends the reader's iteration, unless it salvages; [`Error::MissingAttribute`] when the subject has no `frameRate`.
@@ -48,8 +48,8 @@ fn thread_count(asked: usize) -> usize {
 
 /// More would wait for the one that reads the bytes.
 const MAX_THREADS: usize = 8;
-/// Bytes of a block: few enough for a core's own cache, enough to be worth handing over.
-const BLOCK: usize = 1 << 20;
+/// Bytes of a block: few enough for its text and its numbers to stay in a core's own cache, enough to be worth handing over.
+const BLOCK: usize = 1 << 18;
 
 #[cfg(test)]
 mod tests {
