@@ -62,6 +62,29 @@ fn assert_refused(folder: &TempDir, arguments: &[&str], code: i32, words: &str) 
 }
 
 #[test]
+fn the_code_of_a_file_is_not_in_one_with_other_frames() {
+    let take = small_take(4).replace("</mvnx>", "\t<securityCode code=\"0123abcd\"/>\n</mvnx>");
+    let folder = folder(&[("take.mvnx", take.as_bytes())]);
+    let asked: [&[&str]; 5] = [
+        &[],
+        &["--from", "0", "--to", "3"],
+        &["--from", "1"],
+        &["--rate", "30"],
+        &["--only", "position"],
+    ];
+    for (number, options) in asked.into_iter().enumerate() {
+        let to = format!("{number}.mvnx");
+        let ended = convert(&folder, &[&["take.mvnx", to.as_str()], options].concat());
+        assert_eq!(ended.code, Some(0), "{}", ended.err);
+        let whole = number < 2;
+        let code = if whole { "0123abcd" } else { "" };
+        let element = format!("\t<securityCode code=\"{code}\"/>\n");
+        assert!(text(&folder, &to).contains(&element), "{options:?}");
+        assert_eq!(ended.err.contains("left out  securityCode: "), !whole, "{}", ended.err);
+    }
+}
+
+#[test]
 fn samples_out_of_order_get_the_times_of_their_numbers() {
     let take = small_take(5);
     let (head, frames) = take.split_at(take.find("\t\t\t<frame time=\"0\" index=\"0\"").unwrap());

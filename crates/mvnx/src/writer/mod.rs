@@ -62,6 +62,8 @@ pub struct Writer<W> {
     version: Version,
     /// Whether the document is of the other version.
     converts: bool,
+    /// Whether MVN's code for the file does not hold for what is written.
+    changed: bool,
     tags: Tags,
     left_out: Omissions,
     frames: u64,
@@ -79,6 +81,7 @@ impl<W: Write> Writer<W> {
             numbers: Numbers::new(Layout::new(&document.header), turns(skeleton, version)),
             version,
             converts: document.version() != version,
+            changed: document.version() != version,
             tags: Tags::new(document),
             left_out: Omissions::default(),
             frames: 0,
@@ -88,6 +91,12 @@ impl<W: Write> Writer<W> {
             writer.write_converted_poses(document)?;
         }
         Ok(writer)
+    }
+
+    /// Says that the frames are not those of the document's file: fewer, or with other numbers. MVN's code for that file,
+    /// `securityCode`, is left empty then, and told by [`finish`](Self::finish).
+    pub fn frames_changed(&mut self) {
+        self.changed = true;
     }
 
     /// Writes a frame of any source. Its attributes follow from its sample number and times.

@@ -66,17 +66,18 @@ impl<W: Write> Writer<W> {
 
     /// Whether an element has no place in the other version, or is written anew in its convention.
     fn is_replaced(&mut self, tag: Piece<'_>) -> bool {
-        if !self.converts {
+        if !self.changed {
             return false;
         }
         let (name, kind) = (tag.name(), tag.attribute("type").unwrap_or("normal"));
         match (self.printer.parent(), name) {
-            ("subject", "footContactDefinition") if self.version == Version::V3 => {
-                self.left_out.add(name, Reason::Version(self.version));
-            }
             ("mvnx", "securityCode") if tag.attribute("code").is_some_and(|code| !code.is_empty()) => {
                 self.left_out.add(name, Reason::Converted);
                 return false;
+            }
+            _ if !self.converts => return false,
+            ("subject", "footContactDefinition") if self.version == Version::V3 => {
+                self.left_out.add(name, Reason::Version(self.version));
             }
             ("frames", "frame") if self.frames == 0 && CalibrationKind::of(kind).is_some() => {}
             ("frames", "frame") => self.left_out.add(&format!("frame of type {kind}"), Reason::Converted),
@@ -87,12 +88,13 @@ impl<W: Write> Writer<W> {
 
     /// A start tag in the version that is written.
     fn converted<'a>(&self, tag: Piece<'a>) -> Cow<'a, str> {
-        if !self.converts {
+        if !self.changed {
             return Cow::Borrowed(tag.text);
         }
         match (self.printer.parent(), tag.name()) {
-            ("point", "pos_b" | "pos_s") => Cow::Borrowed(self.version.offset()),
             ("mvnx", "securityCode") => Cow::Owned(tag.with_attribute("code", "")),
+            _ if !self.converts => Cow::Borrowed(tag.text),
+            ("point", "pos_b" | "pos_s") => Cow::Borrowed(self.version.offset()),
             ("mvnx", "subject") if self.version == Version::V4 => Cow::Owned(with_attributes_of_4(tag)),
             ("", "mvnx") => Cow::Owned(tag.with_attribute("version", &self.version.to_string())),
             _ => Cow::Borrowed(tag.text),

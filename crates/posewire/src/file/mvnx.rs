@@ -34,6 +34,8 @@ pub(super) fn write(
     let mut to = Compressed::new(format, out);
     let left_out = {
         let mut writer = Writer::new(&mut to, document, version)?;
+        // Whatever was done to the take, its frames are made anew.
+        writer.frames_changed();
         let mut frame = Frame::new(Arc::clone(&job.take.subject));
         for place in 0..job.take.len() {
             job.take.read_frame(place, &mut frame);
@@ -73,6 +75,9 @@ pub fn rewrite(
         let mut to = Compressed::new(target.format, out);
         let document = reader.document();
         let mut writer = Writer::new(&mut to, &document, version)?;
+        if options.sections.is_some() {
+            writer.frames_changed();
+        }
         let mut remainder = Remainder::default();
         while let Some(frame) = reader.read_whole(&mut remainder) {
             let mut frame = frame.map_err(|error| read_error(source, error, progress))?;
@@ -82,6 +87,8 @@ pub fn rewrite(
                 keep(&mut frame, options.sections.as_deref());
                 writer.write_whole(&frame, &remainder)?;
                 frames += 1;
+            } else {
+                writer.frames_changed();
             }
         }
         damage = reader.damage().map(ToString::to_string);
