@@ -3,6 +3,7 @@
 mod bar;
 mod capture;
 mod plan;
+mod refuse;
 mod report;
 
 use super::End;

@@ -12,7 +12,7 @@ use std::{
 };
 use tempfile::TempDir;
 
-fn folder(files: &[(&str, &[u8])]) -> TempDir {
+pub(crate) fn folder(files: &[(&str, &[u8])]) -> TempDir {
     let folder = TempDir::new().unwrap();
     for (name, content) in files {
         fs::write(folder.path().join(name), content).unwrap();
@@ -20,15 +20,15 @@ fn folder(files: &[(&str, &[u8])]) -> TempDir {
     folder
 }
 
-fn with_take(frames: usize) -> TempDir {
+pub(crate) fn with_take(frames: usize) -> TempDir {
     folder(&[("take.mvnx", small_take(frames).as_bytes())])
 }
 
-fn convert(folder: &TempDir, arguments: &[&str]) -> Ended {
+pub(crate) fn convert(folder: &TempDir, arguments: &[&str]) -> Ended {
     posewire(folder.path(), &[&["convert"], arguments].concat(), b"")
 }
 
-fn text(folder: &TempDir, name: &str) -> String {
+pub(crate) fn text(folder: &TempDir, name: &str) -> String {
     fs::read_to_string(folder.path().join(name)).unwrap()
 }
 
@@ -41,7 +41,7 @@ fn interrupt(child: &Child) {
 }
 
 /// The names of what is in a folder.
-fn names(folder: &Path) -> Vec<String> {
+pub(crate) fn names(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).unwrap();
     let mut names: Vec<_> = entries
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
@@ -51,7 +51,7 @@ fn names(folder: &Path) -> Vec<String> {
 }
 
 /// Asserts that it failed with this code and these words, said what to do, and left nothing behind.
-fn assert_refused(folder: &TempDir, arguments: &[&str], code: i32, words: &str) {
+pub(crate) fn assert_refused(folder: &TempDir, arguments: &[&str], code: i32, words: &str) {
     let before = names(folder.path());
     let ended = convert(folder, arguments);
     assert_eq!(ended.code, Some(code), "{arguments:?}: {}", ended.err);

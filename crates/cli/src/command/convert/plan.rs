@@ -1,5 +1,6 @@
 //! What is converted, and to which files.
 
+use super::refuse;
 use crate::cli::{Axes, Convert, Unit};
 use crate::error::Usage;
 use posewire::endpoint::{Endpoint, FileFormat, Walk};
@@ -46,6 +47,7 @@ impl Plan {
     /// Checks that the arguments fit together and that every file could be written.
     pub(super) fn of(arguments: &Convert) -> anyhow::Result<Self> {
         let (inputs, output) = inputs_and_output(&arguments.paths)?;
+        refuse::standard_streams(inputs, output)?;
         let output = Output::of(inputs, output, arguments.format)?;
         let sources = inputs.iter().map(|input| Ok((input, source(input, arguments)?)));
         let sources = sources.collect::<anyhow::Result<Vec<_>>>()?;
@@ -118,21 +120,40 @@ enum Output {
 }
 
 impl Output {
+    /// Without a format the name tells one. With one, a name that does not end so is that of a folder.
     fn of(inputs: &[String], text: &str, format: Option<FileFormat>) -> anyhow::Result<Self> {
         let path = PathBuf::from(text);
-        if !(inputs.len() > 1 || path.is_dir() || text.ends_with(std::path::is_separator)) {
-            let format = format.map_or_else(|| format_of(text), Ok)?;
-            return Ok(Self::File { path, format });
+        if inputs.len() > 1 || path.is_dir() || text.ends_with(std::path::is_separator) {
+            return Self::folder(path, format);
         }
+        let named = format_of(text);
+        let Some(format) = format else {
+            let format = named?;
+            return Ok(Self::File { path, format });
+        };
+        match named {
+            Ok(named) if named == format => Ok(Self::File { path, format }),
+            Ok(named) => Err(Usage {
+                problem: format!("{text} ends as {named} does, and --format says {format}"),
+                help: "leave --format out, or name a folder".to_owned(),
+            }
+            .into()),
+            // What is there and is no folder is looked at as a file.
+            Err(_) if path.exists() => Ok(Self::File { path, format }),
+            Err(_) => Ok(Self::Folder { path, format }),
+        }
+    }
+
+    fn folder(path: PathBuf, format: Option<FileFormat>) -> anyhow::Result<Self> {
         if path.is_file() {
             return Err(Usage {
-                problem: format!("{text} is a file, and several takes go into a folder"),
+                problem: format!("{} is a file, and several takes go into a folder", path.display()),
                 help: "name a folder behind the takes".to_owned(),
             }
             .into());
         }
         let format = format.ok_or_else(|| Usage {
-            problem: format!("{text} is a folder, which does not say what to write"),
+            problem: format!("{} is a folder, which does not say what to write", path.display()),
             help: "say it with --format, as in --format bvh".to_owned(),
         })?;
         Ok(Self::Folder { path, format })
