@@ -3,7 +3,6 @@
 use crate::Document;
 use crate::document::MILLISECONDS_PER_DAY;
 use posewire_motion::{Frame, Stamp, Timecode};
-use std::fmt::Write;
 use std::time::Duration;
 
 /// Makes start tags of frames.
@@ -28,19 +27,17 @@ impl Tags {
         }
     }
 
-    /// The start tag of a normal frame without its brackets: `time` in whole milliseconds; `tc` with the frame's number
-    /// within the second, when the time of day is known; `ms` in milliseconds since 1970, when the day is known too.
+    /// The start tag of a normal frame without its brackets: `time` in whole milliseconds, `tc` with the frame's number
+    /// within the second, `ms` in milliseconds since 1970.
+    ///
+    /// `tc` is empty when the time of day is not known, `ms` when the day is not: readers look for both.
     pub(crate) fn of(&mut self, frame: &Frame) -> String {
         let time = (frame.time + Duration::from_micros(500)).as_millis();
-        let mut tag = format!("frame time=\"{time}\" index=\"{}\"", frame.sample);
-        // Writing to a string does not fail.
-        if let Some(timecode) = frame.timecode {
-            let _ = write!(tag, " tc=\"{}\"", self.clock(timecode, frame.sample));
-            if let Some(ms) = self.epoch(timecode, frame.received) {
-                let _ = write!(tag, " ms=\"{ms}\"");
-            }
-        }
-        tag + " type=\"normal\""
+        let (index, timecode) = (frame.sample, frame.timecode);
+        let clock = timecode.map_or_else(String::new, |timecode| self.clock(timecode, index));
+        let ms = timecode.and_then(|timecode| self.epoch(timecode, frame.received));
+        let ms = ms.map_or_else(String::new, |ms| ms.to_string());
+        format!("frame time=\"{time}\" index=\"{index}\" tc=\"{clock}\" ms=\"{ms}\" type=\"normal\"")
     }
 
     /// The time of day as `tc` has it. Whole milliseconds would give some frames of a fast take the same number and leave
@@ -160,7 +157,7 @@ mod tests {
         frame.timecode = None;
         assert_eq!(
             tags(Some(DAY)).of(&frame),
-            "frame time=\"17\" index=\"7\" type=\"normal\"",
+            "frame time=\"17\" index=\"7\" tc=\"\" ms=\"\" type=\"normal\"",
             "nothing is known of the time of day"
         );
     }
@@ -238,7 +235,7 @@ mod tests {
         let since_the_start = frame(700, Some(DAY + 47_220_000));
         assert_eq!(
             tags(None).of(&since_the_start),
-            "frame time=\"0\" index=\"0\" tc=\"00:00:00:42\" type=\"normal\""
+            "frame time=\"0\" index=\"0\" tc=\"00:00:00:42\" ms=\"\" type=\"normal\""
         );
     }
 }

@@ -115,11 +115,11 @@ fn frames_of_a_stream_are_stamped_from_their_times() {
     frame.time = Duration::from_millis(83);
     frame.timecode = Some(Timecode::from_milliseconds(15_431_842));
     let known = |frame: &Frame| write(&document, Version::V4, std::slice::from_ref(frame)).0;
-    assert!(known(&frame).contains("<frame time=\"83\" index=\"5\" tc=\"04:17:11:50\" type=\"normal\">"));
+    assert!(known(&frame).contains("<frame time=\"83\" index=\"5\" tc=\"04:17:11:50\" ms=\"\" type=\"normal\">"));
     frame.received = Some(Stamp(1_542_082_631_900_000_000));
     assert!(known(&frame).contains("tc=\"04:17:11:50\" ms=\"1542082631842\" type=\"normal\">"));
     frame.timecode = None;
-    assert!(known(&frame).contains("index=\"5\" type=\"normal\">"));
+    assert!(known(&frame).contains("index=\"5\" tc=\"\" ms=\"\" type=\"normal\">"));
     let found = &read(&known(&frame))[0];
     assert_eq!((found.sample, found.time, found.timecode), (5, frame.time, None));
 }
