@@ -231,7 +231,7 @@ Formats, and the axes and unit that their tools expect:
   c3d             landmarks and joint centres: Z up, mm
   trc, mot, sto   OpenSim: the same (Y up, mm), joint angles (degrees), orientations of segments
   npz             NumPy arrays: Z up, m, radians
-  parquet         columns for DuckDB, Polars and Spark: Z up, m, radians
+  parquet         columns for DuckDB, Polars and Spark: Z up, m, degrees
 
 What a format cannot hold is said. A file appears whole or not at all; Ctrl-C leaves none behind, but a second one, which
 waits for nothing, can leave a hidden .part file.
