@@ -56,6 +56,10 @@ impl Plan {
             .map(|(input, source)| output.job(input, source, arguments))
             .collect();
         refuse_same_names(&jobs)?;
+        refuse::other_sources(arguments, &jobs)?;
+        for job in &jobs {
+            refuse::other_formats(job.format, &arguments.of_format)?;
+        }
         let plan = Self {
             jobs,
             samples: samples(arguments)?,
