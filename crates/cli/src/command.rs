@@ -1,5 +1,6 @@
 //! The verbs, one file each.
 
+mod convert;
 mod demo;
 mod explain;
 mod inspect;
@@ -37,6 +38,7 @@ pub(crate) fn run(command: Command) -> anyhow::Result<End> {
         Command::Stream(arguments) => stream::run(&arguments),
         Command::Monitor(arguments) => monitor::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
+        Command::Convert(arguments) => convert::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),
     }

@@ -1,5 +1,6 @@
 //! What can go wrong in the engine, and what to do about it.
 
+use crate::endpoint::FileFormat;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -179,6 +180,80 @@ pub enum Error {
         /// What the system says.
         reason: String,
     },
+    /// A word that names no file format.
+    #[error("unknown format {found:?}, expected {}", formats())]
+    Format {
+        /// The word as given.
+        found: String,
+    },
+    /// A file of a format that takes are written in and not read from.
+    #[error("{path}: {format} can be written, not read")]
+    WriteOnly {
+        /// The file.
+        path: String,
+        /// The format's name.
+        format: &'static str,
+    },
+    /// Axes or a unit that a format cannot have.
+    #[error("{format}: expected {expected} as the {what}, which the format fixes, found {found}")]
+    Fixed {
+        /// The format's name.
+        format: &'static str,
+        /// "axes" or "unit".
+        what: &'static str,
+        /// What the format has.
+        expected: String,
+        /// What was asked for.
+        found: String,
+    },
+    /// A take that has nothing of what a format holds, or of which none of that was asked for.
+    #[error("{format} holds {what}, and there are none to write")]
+    Lacks {
+        /// The format's name.
+        format: &'static str,
+        /// What it holds.
+        what: &'static str,
+    },
+    /// Sample numbers of which a take has none.
+    #[error("expected samples from {from} to {to}, found those from {first} to {last}")]
+    NoSamples {
+        /// The first number asked for.
+        from: u32,
+        /// The last number asked for.
+        to: u32,
+        /// The first number there is.
+        first: u32,
+        /// The last number there is.
+        last: u32,
+    },
+    /// A rate that a take cannot be given.
+    #[error("expected a rate above 0 and at most 1,000 times the {captured} Hz of the take, found {found}")]
+    NewRate {
+        /// Samples a second that there are.
+        captured: String,
+        /// The rate as given.
+        found: String,
+    },
+    /// A file that is there already.
+    #[error("{} is there already", path.display())]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Work that was stopped before its end.
+    #[error("stopped while {what}")]
+    Stopped {
+        /// What was being done.
+        what: String,
+    },
+    /// Something that this program was built without.
+    #[error("{what} is not in this build of posewire")]
+    Feature {
+        /// What is missing.
+        what: &'static str,
+        /// The feature of Cargo that brings it.
+        feature: &'static str,
+    },
     /// A playback speed that no clock can run at.
     #[error("expected a finite playback speed above 0, found {found}")]
     Speed {
@@ -212,10 +287,23 @@ impl Error {
             Self::Take { error, .. } => Some(take_help(error).into()),
             Self::NoFrames { .. } => Some("posewire inspect says what it holds; export it again from MVN".into()),
             Self::Rate { .. } => Some("leave --rate out to send every sample".into()),
-            Self::NotATarget { .. } => Some("give a network address, as in --to mxtp://127.0.0.1:9763".into()),
+            Self::NotATarget { .. } => {
+                Some("give a network address, as in --to mxtp://127.0.0.1:9763; posewire convert writes files".into())
+            }
             Self::Descriptions { .. } => Some("stream fewer people to NatNet".into()),
             Self::Character { .. } => Some("start at a lower --character, or stream fewer people".into()),
-            Self::Write { .. } => Some("make room there, or send the output elsewhere".into()),
+            Self::Write { kind, .. } => Some(write_help(*kind).into()),
+            Self::Format { .. } => Some("name one of these, as in --format csv".into()),
+            Self::WriteOnly { .. } => Some("give the .mvnx file that it was made from".into()),
+            Self::Fixed { what, .. } => Some(format!(
+                "leave the {what} out, or choose a format that is free in it, as CSV is"
+            )),
+            Self::Lacks { .. } => Some("posewire inspect says what the take holds".into()),
+            Self::NoSamples { .. } => Some("posewire inspect says which samples a take has".into()),
+            Self::NewRate { .. } => Some("leave the rate out to keep every sample".into()),
+            Self::Exists { .. } => Some("choose another name, or replace it with --overwrite".into()),
+            Self::Stopped { .. } => Some("nothing was left half written; start again when you like".into()),
+            Self::Feature { feature, .. } => Some(format!("cargo install --path crates/cli --features {feature}")),
             Self::Speed { .. } => Some("1 is real time, 0.5 half as fast".into()),
         }
     }
@@ -260,6 +348,13 @@ impl Error {
                 | Self::NotATarget { .. }
                 | Self::Character { .. }
                 | Self::Speed { .. }
+                | Self::Format { .. }
+                | Self::WriteOnly { .. }
+                | Self::Fixed { .. }
+                | Self::Exists { .. }
+                | Self::NoSamples { .. }
+                | Self::NewRate { .. }
+                | Self::Feature { .. }
         )
     }
 
@@ -286,6 +381,11 @@ pub(crate) fn reason(error: &io::Error) -> String {
     text[..end].to_lowercase()
 }
 
+fn formats() -> String {
+    let endings: Vec<_> = FileFormat::ALL.iter().map(|format| format.ending()).collect();
+    listed(&endings)
+}
+
 fn url_help(part: &str) -> String {
     match part {
         "host" | "port" | "address" => "write HOST, HOST:PORT or [IPV6]:PORT, as in mxtp://127.0.0.1:9763".into(),
@@ -310,6 +410,17 @@ fn path_help(path: &str) -> String {
         format!("for a network address write mxtp://{path}")
     } else {
         "give an .mvnx file, mxtp://HOST:PORT, or synthetic:walk".into()
+    }
+}
+
+fn write_help(kind: io::ErrorKind) -> &'static str {
+    match kind {
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+            "ask for the right to write there, or write elsewhere"
+        }
+        io::ErrorKind::NotFound => "make the folder first, or write elsewhere",
+        io::ErrorKind::IsADirectory | io::ErrorKind::InvalidInput => "name a file",
+        _ => "make room there, or send the output elsewhere",
     }
 }
 

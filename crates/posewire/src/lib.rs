@@ -32,6 +32,7 @@
 pub mod clock;
 pub mod endpoint;
 mod error;
+pub mod file;
 pub mod histogram;
 mod item;
 pub mod net;

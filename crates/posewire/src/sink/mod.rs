@@ -3,10 +3,12 @@
 mod mxtp;
 mod natnet;
 mod progress;
+mod take;
 
 pub use mxtp::{MxtpSink, MxtpSinkOptions};
 pub use natnet::{NatNetSink, NatNetSinkOptions};
 pub use progress::{ClientProgress, ClientState, LeftOut, Progress, TargetProgress};
+pub use take::TakeSink;
 
 use crate::queue::Policy;
 use crate::{Item, Result};
