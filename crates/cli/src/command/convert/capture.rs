@@ -52,7 +52,7 @@ pub(super) fn live(
     let outcome = session.wait();
     end_progress();
     stops.end_capture();
-    let lost = outcome?.dropped + teller.kernel_dropped();
+    let lost = outcome?.dropped + teller.lost_here();
     if lost > 0 {
         say(format_args!("{} were lost on this machine", plural(lost, "datagram")));
     }
