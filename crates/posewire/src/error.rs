@@ -133,6 +133,8 @@ pub enum Error {
         path: PathBuf,
         /// What is wrong with it, and where.
         error: posewire_mvnx::Error,
+        /// How many whole frames stand before that.
+        frames: u64,
     },
     /// A take without a single frame.
     #[error("{path}: expected frames, found none")]
@@ -284,7 +286,7 @@ impl Error {
             } => socket_help(action, address, *kind),
             Self::Stalled { peer, .. } => Some(format!("check that the program at {peer} reads its connection")),
             Self::Read { kind, .. } => read_help(*kind),
-            Self::Take { error, .. } => Some(take_help(error).into()),
+            Self::Take { error, frames, .. } => Some(take_help(error, *frames).into()),
             Self::NoFrames { .. } => Some("posewire inspect says what it holds; export it again from MVN".into()),
             Self::Rate { .. } => Some("leave --rate out to send every sample".into()),
             Self::NotATarget { .. } => {
@@ -317,11 +319,12 @@ impl Error {
         }
     }
 
-    /// What is wrong with a take.
-    pub fn take(path: &Path, error: posewire_mvnx::Error) -> Self {
+    /// What is wrong with a take, behind so many whole frames.
+    pub fn take(path: &Path, error: posewire_mvnx::Error, frames: u64) -> Self {
         Self::Take {
             path: path.to_owned(),
             error,
+            frames,
         }
     }
 
@@ -421,14 +424,15 @@ fn write_help(kind: io::ErrorKind) -> &'static str {
     }
 }
 
-fn take_help(error: &posewire_mvnx::Error) -> &'static str {
+fn take_help(error: &posewire_mvnx::Error, frames: u64) -> &'static str {
     use posewire_mvnx::Error;
     match error {
         Error::Binary { .. } => "open the take in MVN, export it as MVNX and use the .mvnx file",
         Error::Empty | Error::NotMvnx { .. } => "give a take that was exported from MVN as MVNX",
         Error::Version { .. } => "open the take in a current MVN and export it again as MVNX",
-        Error::Io { .. } | Error::Truncated { .. } | Error::Xml { .. } | Error::Columns { .. } => {
-            "--salvage uses the frames before the damage; exporting again from MVN may mend it"
+        _ if frames > 0 => "--salvage uses the frames before the damage; exporting again from MVN may mend it",
+        Error::Io { .. } | Error::Truncated { .. } => {
+            "export the take again from MVN: there is no whole frame before the damage"
         }
         _ => "export the take again from MVN, or mend the file at that place",
     }

@@ -393,7 +393,7 @@ fn what_is_no_take_leaves_no_file() {
         );
         assert_refused(&folder, &["nothing.mvnx", to], 1, "cannot read nothing.mvnx");
         let ended = convert(&folder, &["cut.mvnx", to, "--salvage"]);
-        assert_eq!(ended.code, Some(0), "{}", ended.err);
+        assert_eq!(ended.code, Some(3), "{}", ended.err);
         assert!(
             ended.err.contains(": 2 frames, ") && ended.err.contains("\n  damaged   line"),
             "{}",

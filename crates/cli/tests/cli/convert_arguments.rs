@@ -1,6 +1,7 @@
 //! Which arguments of `posewire convert` go together, and what those that do not are answered.
 
-use crate::convert::{assert_refused, convert, names, with_take};
+use crate::convert::{assert_refused, convert, folder, names, with_take};
+use crate::takes::small_take;
 
 #[test]
 fn with_a_format_the_output_is_a_folder_unless_it_ends_so() {
@@ -56,4 +57,37 @@ fn options_that_would_be_passed_over_are_refused() {
     assert_refused(&folder, &walk, 2, "--salvage is for files");
     let ended = convert(&folder, &["take.mvnx", "x.mvnx.gz", "--mvnx-version", "3"]);
     assert_eq!(ended.code, Some(0), "{}", ended.err);
+}
+
+#[test]
+fn salvage_is_advised_where_frames_stand_before_the_damage() {
+    let take = small_take(3);
+    let nan = |frame: usize| {
+        let (at, _) = take.match_indices("<position>").nth(frame + 1).unwrap();
+        [&take[..at], "<position>nan ", &take[at + "<position>".len()..]].concat()
+    };
+    // As ISO 8859-1 has it.
+    let (before, after) = take.split_once("Bea").unwrap();
+    let latin = [before.as_bytes(), b"Ma\xe9", after.as_bytes()].concat();
+    let folder = folder(&[
+        ("head.mvnx", &take.as_bytes()[..400]),
+        ("first.mvnx", nan(0).as_bytes()),
+        ("second.mvnx", nan(1).as_bytes()),
+        ("latin.mvnx", &latin),
+    ]);
+    for to in ["x.csv", "x.mvnx"] {
+        for (from, advised) in [("head", false), ("latin", false), ("first", false), ("second", true)] {
+            let from = format!("{from}.mvnx");
+            let ended = convert(&folder, &[&from, to]);
+            assert_eq!(ended.code, Some(1), "{}", ended.err);
+            assert_eq!(ended.err.contains("--salvage"), advised, "{from}: {}", ended.err);
+            let salvaged = convert(&folder, &[&from, to, "--salvage", "--overwrite"]);
+            if advised {
+                assert_eq!(salvaged.code, Some(3), "{}", salvaged.err);
+            } else {
+                assert_eq!((salvaged.code, salvaged.err), (Some(1), ended.err), "{from}");
+            }
+        }
+        std::fs::remove_file(folder.path().join(to)).unwrap();
+    }
 }
