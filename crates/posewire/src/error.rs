@@ -217,7 +217,7 @@ pub enum Error {
         what: &'static str,
     },
     /// Sample numbers of which a take has none.
-    #[error("expected samples from {from} to {to}, found those from {first} to {last}")]
+    #[error("expected samples {}, found those from {first} to {last}", numbers(*from, *to))]
     NoSamples {
         /// The first number asked for.
         from: u32,
@@ -229,7 +229,9 @@ pub enum Error {
         last: u32,
     },
     /// A rate that a take cannot be given.
-    #[error("expected a rate above 0 and at most 1,000 times the {captured} Hz of the take, found {found}")]
+    #[error(
+        "expected a rate from 0.001 Hz, below 1,000,000 Hz and at most 1,000 times the {captured} Hz of the take, found {found}"
+    )]
     NewRate {
         /// Samples a second that there are.
         captured: String,
@@ -389,6 +391,14 @@ fn formats() -> String {
     listed(&endings)
 }
 
+/// "from 3 to 5", "from 3 on".
+fn numbers(from: u32, to: u32) -> String {
+    match (from, to) {
+        (from, u32::MAX) => format!("from {from} on"),
+        (from, to) => format!("from {from} to {to}"),
+    }
+}
+
 fn url_help(part: &str) -> String {
     match part {
         "host" | "port" | "address" => "write HOST, HOST:PORT or [IPV6]:PORT, as in mxtp://127.0.0.1:9763".into(),
@@ -420,6 +430,7 @@ fn write_help(kind: io::ErrorKind) -> &'static str {
         }
         io::ErrorKind::NotFound => "make the folder first, or write elsewhere",
         io::ErrorKind::IsADirectory | io::ErrorKind::InvalidInput => "name a file",
+        io::ErrorKind::InvalidFilename => "choose a shorter name",
         _ => "make room there, or send the output elsewhere",
     }
 }

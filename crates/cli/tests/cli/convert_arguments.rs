@@ -24,6 +24,10 @@ fn the_standard_streams_are_refused() {
     let folder = with_take(2);
     for (arguments, words) in [
         (vec!["take.mvnx", "-", "--format", "csv"], "the standard output (-)"),
+        (
+            vec!["take.mvnx", "/dev/stdout", "--format", "csv", "--overwrite"],
+            "the standard output (/dev/stdout)",
+        ),
         (vec!["take.mvnx", "-"], "the standard output (-)"),
         (vec!["-", "x.csv"], "the standard input (-)"),
     ] {
@@ -90,4 +94,36 @@ fn salvage_is_advised_where_frames_stand_before_the_damage() {
         }
         std::fs::remove_file(folder.path().join(to)).unwrap();
     }
+}
+
+#[test]
+fn what_is_no_number_or_name_is_told_what_would_be() {
+    let folder = with_take(2);
+    let long = format!("{}.csv", "n".repeat(252));
+    for (arguments, words) in [
+        (["x.csv", "--from", "abc"], "number of a sample, from 0 to 4294967295"),
+        (["x.csv", "--to", "-5"], "number of a sample, from 0 to 4294967295"),
+        (
+            ["x.csv", "--rate", "fast"],
+            "expected a rate from 0.001 Hz and below 1,000,000 Hz",
+        ),
+        (["x.csv", "--rate", "0.0005"], "expected a rate from 0.001 Hz"),
+        (
+            ["x.csv", "--rate", "70000"],
+            "at most 1,000 times the 60 Hz of the take",
+        ),
+        (
+            ["x.csv", "--only", "position,"],
+            "expected the name of a section: position, ",
+        ),
+        (
+            ["take.mvnx", "many.npz", "--json"],
+            "and many.npz names a file of NPZ",
+        ),
+    ] {
+        assert_refused(&folder, &[&["take.mvnx"], &arguments[..]].concat(), 2, words);
+    }
+    assert_refused(&folder, &["take.mvnx", &long], 1, "help: choose a shorter name");
+    let ended = convert(&folder, &["take.mvnx", "x.csv", "--only", " Position, ORIENTATION"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
 }
