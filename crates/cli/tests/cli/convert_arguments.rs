@@ -116,10 +116,7 @@ fn what_is_no_number_or_name_is_told_what_would_be() {
             ["x.csv", "--only", "position,"],
             "expected the name of a section: position, ",
         ),
-        (
-            ["take.mvnx", "many.npz", "--json"],
-            "and many.npz names a file of NPZ",
-        ),
+        (["take.mvnx", "many.npz", "--json"], "and many.npz names a file of NPZ"),
     ] {
         assert_refused(&folder, &[&["take.mvnx"], &arguments[..]].concat(), 2, words);
     }
