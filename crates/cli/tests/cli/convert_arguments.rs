@@ -124,3 +124,33 @@ fn what_is_no_number_or_name_is_told_what_would_be() {
     let ended = convert(&folder, &["take.mvnx", "x.csv", "--only", " Position, ORIENTATION"]);
     assert_eq!(ended.code, Some(0), "{}", ended.err);
 }
+
+#[test]
+fn what_stands_around_a_take_is_said_to_be_left_out() {
+    let take = small_take(3)
+        .replace(
+            "\t\t<segments>",
+            "\t\t<comment>slow</comment>\n\t\t<mood>fine</mood>\n\t\t<segments>",
+        )
+        .replace("\t\t\t</frame>", "\t\t\t\t<pulse>61</pulse>\n\t\t\t</frame>");
+    let folder = folder(&[("take.mvnx", take.as_bytes())]);
+    for (options, words, missing) in [
+        (
+            &["x.csv"][..],
+            "the points of segments, the poses of calibration, comments",
+            None,
+        ),
+        (&["x.csv", "--overwrite"], "mood, which posewire does not know", None),
+        (
+            &["x.trc"],
+            "pulse of frames, which posewire does not know",
+            Some("points"),
+        ),
+        (&["x.mvnx", "--rate", "30"], "pulse of frames", Some("calibration")),
+    ] {
+        let ended = convert(&folder, &[&["take.mvnx"], options].concat());
+        let said = ended.err.replace("\n           ", "");
+        assert!(said.contains(words), "{options:?}: {said}");
+        assert!(missing.is_none_or(|missing| !said.contains(missing)), "{said}");
+    }
+}

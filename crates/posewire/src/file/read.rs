@@ -38,8 +38,15 @@ pub fn read(path: &Path, options: ReadOptions, progress: &Progress) -> Result<Re
     Ok(Recording {
         document: Some(reader.document()),
         damage: reader.damage().map(ToString::to_string),
+        unread: unread(&reader),
         ..Recording::from(take)
     })
+}
+
+/// The names of what is not known in the frames read.
+fn unread(reader: &TakeReader<'_>) -> Vec<String> {
+    let unknown = reader.sections().iter().filter(|section| !section.known);
+    unknown.map(|section| section.name.clone()).collect()
 }
 
 /// A reader of an MVNX file that stands before the first frame.
