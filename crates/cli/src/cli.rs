@@ -2,6 +2,7 @@
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use posewire::endpoint::FileFormat;
+use posewire::file::RATES;
 use posewire_motion::Section;
 use posewire_natnet::Version;
 use std::path::PathBuf;
@@ -262,15 +263,15 @@ pub(crate) struct Convert {
     pub(crate) format: Option<FileFormat>,
 
     /// The first sample to write, by its number.
-    #[arg(long, value_name = "SAMPLE")]
+    #[arg(long, value_name = "SAMPLE", value_parser = sample, allow_negative_numbers = true)]
     pub(crate) from: Option<u32>,
 
     /// The last sample to write, by its number.
-    #[arg(long, value_name = "SAMPLE")]
+    #[arg(long, value_name = "SAMPLE", value_parser = sample, allow_negative_numbers = true)]
     pub(crate) to: Option<u32>,
 
     /// Write so many samples a second, interpolated.
-    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    #[arg(long, value_name = "HZ", value_parser = rate, allow_negative_numbers = true)]
     pub(crate) rate: Option<f64>,
 
     /// Other axes than the format's tools expect.
@@ -282,7 +283,7 @@ pub(crate) struct Convert {
     pub(crate) unit: Option<Unit>,
 
     /// Write these sections alone, with commas, as in position,orientation.
-    #[arg(long, value_name = "SECTION,...", value_delimiter = ',', long_help = SECTIONS)]
+    #[arg(long, value_name = "SECTION,...", value_delimiter = ',', value_parser = section, long_help = SECTIONS)]
     pub(crate) only: Vec<Section>,
 
     /// Replace files that are there already.
@@ -446,6 +447,28 @@ fn bitstream(text: &str) -> Result<Version, String> {
     };
     let version = text.parse().ok().filter(is_known);
     version.ok_or_else(|| format!("expected a version from {oldest} to {}", Version::LATEST))
+}
+
+/// The number of a sample, as `inspect` shows it.
+fn sample(text: &str) -> Result<u32, String> {
+    text.parse()
+        .map_err(|_| format!("expected the number of a sample, from 0 to {}", u32::MAX))
+}
+
+/// A rate to write at.
+fn rate(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(rate) if RATES.contains(&rate) => Ok(rate),
+        _ => Err("expected a rate from 0.001 Hz and below 1,000,000 Hz, as in 120".to_owned()),
+    }
+}
+
+/// The name of a section, in either case.
+fn section(text: &str) -> Result<Section, String> {
+    text.trim().to_ascii_lowercase().parse().map_err(|_| {
+        let names: Vec<_> = Section::ALL.iter().map(|section| section.name()).collect();
+        format!("expected the name of a section: {}", names.join(", "))
+    })
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {

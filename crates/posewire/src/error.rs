@@ -133,6 +133,8 @@ pub enum Error {
         path: PathBuf,
         /// What is wrong with it, and where.
         error: posewire_mvnx::Error,
+        /// How many whole frames stand before that.
+        frames: u64,
     },
     /// A take without a single frame.
     #[error("{path}: expected frames, found none")]
@@ -215,7 +217,7 @@ pub enum Error {
         what: &'static str,
     },
     /// Sample numbers of which a take has none.
-    #[error("expected samples from {from} to {to}, found those from {first} to {last}")]
+    #[error("expected samples {}, found those from {first} to {last}", numbers(*from, *to))]
     NoSamples {
         /// The first number asked for.
         from: u32,
@@ -227,7 +229,9 @@ pub enum Error {
         last: u32,
     },
     /// A rate that a take cannot be given.
-    #[error("expected a rate above 0 and at most 1,000 times the {captured} Hz of the take, found {found}")]
+    #[error(
+        "expected a rate from 0.001 Hz, below 1,000,000 Hz and at most 1,000 times the {captured} Hz of the take, found {found}"
+    )]
     NewRate {
         /// Samples a second that there are.
         captured: String,
@@ -284,7 +288,7 @@ impl Error {
             } => socket_help(action, address, *kind),
             Self::Stalled { peer, .. } => Some(format!("check that the program at {peer} reads its connection")),
             Self::Read { kind, .. } => read_help(*kind),
-            Self::Take { error, .. } => Some(take_help(error).into()),
+            Self::Take { error, frames, .. } => Some(take_help(error, *frames).into()),
             Self::NoFrames { .. } => Some("posewire inspect says what it holds; export it again from MVN".into()),
             Self::Rate { .. } => Some("leave --rate out to send every sample".into()),
             Self::NotATarget { .. } => {
@@ -317,11 +321,12 @@ impl Error {
         }
     }
 
-    /// What is wrong with a take.
-    pub fn take(path: &Path, error: posewire_mvnx::Error) -> Self {
+    /// What is wrong with a take, behind so many whole frames.
+    pub fn take(path: &Path, error: posewire_mvnx::Error, frames: u64) -> Self {
         Self::Take {
             path: path.to_owned(),
             error,
+            frames,
         }
     }
 
@@ -386,6 +391,14 @@ fn formats() -> String {
     listed(&endings)
 }
 
+/// "from 3 to 5", "from 3 on".
+fn numbers(from: u32, to: u32) -> String {
+    match (from, to) {
+        (from, u32::MAX) => format!("from {from} on"),
+        (from, to) => format!("from {from} to {to}"),
+    }
+}
+
 fn url_help(part: &str) -> String {
     match part {
         "host" | "port" | "address" => "write HOST, HOST:PORT or [IPV6]:PORT, as in mxtp://127.0.0.1:9763".into(),
@@ -420,18 +433,20 @@ fn write_help(kind: io::ErrorKind) -> &'static str {
         }
         io::ErrorKind::NotFound => "make the folder first, or write elsewhere",
         io::ErrorKind::IsADirectory | io::ErrorKind::InvalidInput => "name a file",
+        io::ErrorKind::InvalidFilename => "choose a shorter name",
         _ => "make room there, or send the output elsewhere",
     }
 }
 
-fn take_help(error: &posewire_mvnx::Error) -> &'static str {
+fn take_help(error: &posewire_mvnx::Error, frames: u64) -> &'static str {
     use posewire_mvnx::Error;
     match error {
         Error::Binary { .. } => "open the take in MVN, export it as MVNX and use the .mvnx file",
         Error::Empty | Error::NotMvnx { .. } => "give a take that was exported from MVN as MVNX",
         Error::Version { .. } => "open the take in a current MVN and export it again as MVNX",
-        Error::Io { .. } | Error::Truncated { .. } | Error::Xml { .. } | Error::Columns { .. } => {
-            "--salvage uses the frames before the damage; exporting again from MVN may mend it"
+        _ if frames > 0 => "--salvage uses the frames before the damage; exporting again from MVN may mend it",
+        Error::Io { .. } | Error::Truncated { .. } => {
+            "export the take again from MVN: there is no whole frame before the damage"
         }
         _ => "export the take again from MVN, or mend the file at that place",
     }

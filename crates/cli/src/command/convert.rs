@@ -31,7 +31,10 @@ pub(super) fn run(arguments: &Convert) -> anyhow::Result<End> {
         takes += done.takes.len();
         for take in done.takes {
             match take {
-                Ok(report) => tell(&report, arguments.json)?,
+                Ok(report) => {
+                    lost += u64::from(report.is_damaged());
+                    tell(&report, arguments.json)?;
+                }
                 Err(error) if alone || stops.work.is_stopped() => return Err(error),
                 // The others are converted all the same.
                 Err(error) => {

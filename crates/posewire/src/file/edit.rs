@@ -4,7 +4,10 @@ use super::Recording;
 use crate::{Error, Result};
 use posewire_motion::Section;
 use posewire_motion::kinematics::{completed, resampled};
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
+
+/// The rates that a take can be given, samples a second: those that a file can have.
+pub const RATES: Range<f64> = 0.001..1e6;
 
 impl Recording {
     /// Keeps the frames from one sample number to another, both included.
@@ -31,7 +34,7 @@ impl Recording {
         }
     }
 
-    /// Gives the take another rate, samples a second: see [`Resampler`](posewire_motion::kinematics::Resampler).
+    /// Gives the take another rate, samples a second, one of [`RATES`]: see [`Resampler`](posewire_motion::kinematics::Resampler).
     ///
     /// # Errors
     /// [`Error::NewRate`] when the rate is none, or the take has none itself.
@@ -44,6 +47,9 @@ impl Recording {
             captured: captured.clone(),
             found: rate.to_string(),
         };
+        if !RATES.contains(&rate) {
+            return Err(wrong());
+        }
         let resampled = resampled(&self.take, rate).map_err(|_| wrong())?;
         if let Some(document) = &mut self.document {
             document.set_rate(rate).map_err(|_| wrong())?;
@@ -99,7 +105,9 @@ mod tests {
         let mut recording = Recording::from(walk(9));
         recording.resample(60.0).unwrap();
         assert_eq!((recording.take.len(), recording.take.rate), (3, 60.0));
-        assert!(matches!(recording.resample(-PI), Err(Error::NewRate { .. })));
+        for rate in [-PI, 0.0, 0.0005, 1e6, f64::NAN] {
+            assert!(matches!(recording.resample(rate), Err(Error::NewRate { .. })), "{rate}");
+        }
     }
 
     #[test]

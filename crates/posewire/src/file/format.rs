@@ -1,5 +1,6 @@
 //! What each format holds, and in which axes and unit.
 
+use super::grid::keeps_time;
 use super::{Axes, LeftOut};
 use crate::endpoint::FileFormat;
 use crate::{Error, Result};
@@ -18,8 +19,6 @@ enum Other {
     Markers,
     Events,
     Timecodes,
-    /// Frames have times, and do not just follow each other at the rate.
-    Times,
 }
 
 impl FileFormat {
@@ -55,6 +54,8 @@ impl FileFormat {
     pub(super) fn leaves_out(self, take: &Take, asked: Option<&[Section]>) -> LeftOut {
         let holds = self.holds();
         let mut left_out = LeftOut::new();
+        // First what shifts times.
+        left_out.extend(self.missing(take));
         let missed = take.sections().filter(|section| {
             let wanted = asked.is_none_or(|asked| asked.contains(section));
             wanted && !holds.sections.contains(section)
@@ -62,26 +63,27 @@ impl FileFormat {
         for section in missed {
             left_out.push(section.name().replace('_', " "));
         }
-        for other in [
-            Other::Times,
-            Other::Contacts,
-            Other::Markers,
-            Other::Events,
-            Other::Timecodes,
-        ] {
-            let wanted = asked.is_none() || other == Other::Times;
-            if wanted && !holds.others.contains(&other) {
+        let others = [Other::Contacts, Other::Markers, Other::Events, Other::Timecodes];
+        for other in others.iter().filter(|other| !holds.others.contains(other)) {
+            if asked.is_none() {
                 left_out.extend(other.found_in(take));
             }
         }
         left_out
     }
 
-    /// The samples that are missing in a file whose frames follow each other at the rate.
-    pub(super) fn closes_up(take: &Take) -> LeftOut {
-        let mut left_out = LeftOut::new();
-        left_out.extend(Other::Times.found_in(take));
-        left_out
+    /// What becomes of the samples that are missing in a file whose frames follow each other at the rate.
+    fn missing(self, take: &Take) -> Option<String> {
+        let missing = missing_samples(take);
+        let samples = if missing == 1 { "sample" } else { "samples" };
+        match self {
+            Self::Bvh | Self::C3d if missing == 0 => None,
+            Self::Bvh | Self::C3d if !keeps_time(take) => {
+                Some(format!("{missing} missing {samples}, over which the frames close up"))
+            }
+            Self::Bvh => Some(format!("{missing} missing {samples}, at which the pose before stays")),
+            _ => None,
+        }
     }
 
     /// What its tools expect.
@@ -125,32 +127,21 @@ impl FileFormat {
     const fn holds(self) -> Holds {
         let poses = Holds {
             sections: &[Section::Position, Section::Orientation],
-            others: &[Other::Times],
+            others: &[],
         };
         match self {
             // Its writer tells what it has no place for.
             Self::Mvnx | Self::MvnxGz => Holds {
                 sections: Section::ALL,
-                others: &[
-                    Other::Contacts,
-                    Other::Markers,
-                    Other::Events,
-                    Other::Timecodes,
-                    Other::Times,
-                ],
+                others: &[Other::Contacts, Other::Markers, Other::Events, Other::Timecodes],
             },
             Self::Csv | Self::Npz | Self::Parquet => Holds {
                 sections: Section::ALL,
-                others: &[Other::Contacts, Other::Events, Other::Timecodes, Other::Times],
+                others: &[Other::Contacts, Other::Events, Other::Timecodes],
             },
             Self::C3d => Holds {
-                sections: &[
-                    Section::Position,
-                    Section::Orientation,
-                    Section::JointAngles,
-                    Section::CenterOfMass,
-                ],
-                others: &[Other::Events, Other::Times],
+                sections: &[Section::Position, Section::JointAngles, Section::CenterOfMass],
+                others: &[Other::Events],
             },
             Self::Mot => Holds {
                 sections: &[Section::JointAngles],
@@ -160,8 +151,11 @@ impl FileFormat {
                 sections: &[Section::Orientation],
                 ..poses
             },
-            Self::Bvh => Holds { others: &[], ..poses },
-            Self::Trc | Self::Gltf | Self::Glb => poses,
+            Self::Trc => Holds {
+                sections: &[Section::Position],
+                ..poses
+            },
+            Self::Bvh | Self::Gltf | Self::Glb => poses,
         }
     }
 }
@@ -175,11 +169,6 @@ impl Other {
             Self::Markers => (any(&|frame| !take.markers(frame).is_empty()), "markers"),
             Self::Events => (!take.events().is_empty(), "events"),
             Self::Timecodes => (take.timecodes().iter().any(Option::is_some), "the time of day"),
-            Self::Times => {
-                let missing = missing_samples(take);
-                let what = format!("{missing} missing samples, over which the frames close up");
-                return (missing > 0).then_some(what);
-            }
         };
         is_there.then(|| what.to_owned())
     }
@@ -258,7 +247,7 @@ mod tests {
         let left_out = FileFormat::Bvh.leaves_out(&take, None);
         assert_eq!(
             left_out.to_string(),
-            "angular velocity, 3 missing samples, over which the frames close up, foot contacts, the time of day"
+            "3 missing samples, at which the pose before stays, angular velocity, foot contacts, the time of day"
         );
         let asked = FileFormat::Bvh.leaves_out(&take, Some(&[Section::Orientation]));
         assert_eq!(asked.iter().count(), 1);

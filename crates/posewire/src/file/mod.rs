@@ -21,12 +21,14 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod around;
 mod bvh;
 mod c3d;
 mod csv;
 mod edit;
 mod format;
 mod gltf;
+mod grid;
 mod left_out;
 mod mvnx;
 mod names;
@@ -43,6 +45,7 @@ mod save;
 mod text;
 mod tracks;
 
+pub use edit::RATES;
 pub use left_out::LeftOut;
 pub use mvnx::{Rewritten, rewrite};
 pub use options::{Axes, BvhOptions, CsvOptions, MvnxOptions, ParquetOptions, WriteOptions};
@@ -68,6 +71,8 @@ pub struct Recording {
     pub document: Option<Document>,
     /// What ended the file before its end, if something did and the frames before it were to be used.
     pub damage: Option<String>,
+    /// The elements of its frames that are not known here, and so not in the take.
+    pub unread: Vec<String>,
     /// Which samples stood out of order in the source, or twice.
     pub reordered: Reordered,
 }
@@ -81,6 +86,7 @@ impl From<Take> for Recording {
             take,
             document: None,
             damage: None,
+            unread: Vec::new(),
             reordered,
         }
     }
@@ -128,9 +134,14 @@ fn write_to(
     let mut out = Output::new(out);
     let left_out = job.write(format, recording, &mut out)?;
     out.finish()?;
-    Ok(format
+    let mut all = format
         .leaves_out(&recording.take, options.sections.as_deref())
-        .and(left_out))
+        .and(left_out);
+    // What belongs to no section was not asked for with some.
+    if options.sections.is_none() {
+        all = all.and(around::leaves_out(format, recording));
+    }
+    Ok(all)
 }
 
 /// One take on its way into one file.

@@ -1,7 +1,7 @@
 //! MVNX: a take with what stands around it, or a whole file frame by frame.
 
 use super::problem::Problem;
-use super::read::{open, read_error, stopped};
+use super::read::{no_frames, open, read_error, stopped};
 use super::save::save_one;
 use super::{Job, LeftOut, Output, Progress, ReadOptions, Recording, Saved, Target, WriteOptions};
 use crate::endpoint::FileFormat;
@@ -80,7 +80,7 @@ pub fn rewrite(
         }
         let mut remainder = Remainder::default();
         while let Some(frame) = reader.read_whole(&mut remainder) {
-            let mut frame = frame.map_err(|error| read_error(source, error, progress))?;
+            let mut frame = frame.map_err(|error| read_error(source, error, reader.counts().normal, progress))?;
             let (first, _) = found.unwrap_or((frame.sample, 0));
             found = Some((first, frame.sample));
             if samples.contains(&frame.sample) {
@@ -97,7 +97,11 @@ pub fn rewrite(
             return Err(stopped(source).into());
         }
         if frames == 0 {
-            return Err(nothing(source, samples, found).into());
+            return Err(match found {
+                Some(found) => no_samples(samples, found),
+                None => no_frames(source, reader.damage()),
+            }
+            .into());
         }
         let left_out = writer.finish(&reader.document())?.1;
         to.finish()?;
@@ -108,18 +112,13 @@ pub fn rewrite(
     Ok(Rewritten { saved, frames, damage })
 }
 
-/// Why no frame was written.
-fn nothing(source: &Path, samples: &RangeInclusive<u32>, found: Option<(u32, u32)>) -> Error {
-    match found {
-        Some((first, last)) => Error::NoSamples {
-            from: *samples.start(),
-            to: *samples.end(),
-            first,
-            last,
-        },
-        None => Error::NoFrames {
-            path: source.display().to_string(),
-        },
+/// None of the samples from the first found to the last was asked for.
+fn no_samples(samples: &RangeInclusive<u32>, (first, last): (u32, u32)) -> Error {
+    Error::NoSamples {
+        from: *samples.start(),
+        to: *samples.end(),
+        first,
+        last,
     }
 }
 

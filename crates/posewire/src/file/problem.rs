@@ -27,7 +27,7 @@ impl Problem {
     pub(crate) fn at(self, place: &str) -> Error {
         match self {
             Self::Output(error) => Error::write(place, &error),
-            Self::Mvnx(error) => Error::take(Path::new(place), error),
+            Self::Mvnx(error) => Error::take(Path::new(place), error, 0),
             Self::Other(error) => error,
         }
     }

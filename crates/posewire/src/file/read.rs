@@ -30,18 +30,23 @@ pub fn read(path: &Path, options: ReadOptions, progress: &Progress) -> Result<Re
     let take = match take {
         Ok(take) if !progress.is_stopped() => take,
         Ok(_) => return Err(stopped(path)),
-        Err(error) => return Err(read_error(path, error, progress)),
+        Err(error) => return Err(read_error(path, error, reader.counts().normal, progress)),
     };
     if take.is_empty() {
-        return Err(Error::NoFrames {
-            path: path.display().to_string(),
-        });
+        return Err(no_frames(path, reader.damage()));
     }
     Ok(Recording {
         document: Some(reader.document()),
         damage: reader.damage().map(ToString::to_string),
+        unread: unread(&reader),
         ..Recording::from(take)
     })
+}
+
+/// The names of what is not known in the frames read.
+fn unread(reader: &TakeReader<'_>) -> Vec<String> {
+    let unknown = reader.sections().iter().filter(|section| !section.known);
+    unknown.map(|section| section.name.clone()).collect()
 }
 
 /// A reader of an MVNX file that stands before the first frame.
@@ -60,16 +65,26 @@ pub(super) fn open<'a>(path: &Path, options: ReadOptions, progress: &'a Progress
     }
     progress.begin(about.len());
     let reader = Reader::new(BufReader::with_capacity(BUFFER, Watched { file, progress }));
-    let reader = reader.map_err(|error| read_error(path, error, progress))?;
+    let reader = reader.map_err(|error| read_error(path, error, 0, progress))?;
     Ok(reader.salvage(options.salvage).threads(options.threads.unwrap_or(0)))
 }
 
-/// What kept a file from being read.
-pub(super) fn read_error(path: &Path, error: posewire_mvnx::Error, progress: &Progress) -> Error {
+/// What kept a file from being read behind so many frames.
+pub(super) fn read_error(path: &Path, error: posewire_mvnx::Error, frames: u64, progress: &Progress) -> Error {
     if progress.is_stopped() {
         return stopped(path);
     }
-    Error::take(path, error)
+    Error::take(path, error, frames)
+}
+
+/// Why a file that was read to its end, or to the damage that was to be passed over, gave no frame.
+pub(super) fn no_frames(path: &Path, damage: Option<&posewire_mvnx::Error>) -> Error {
+    match damage {
+        Some(damage) => Error::take(path, damage.clone(), 0),
+        None => Error::NoFrames {
+            path: path.display().to_string(),
+        },
+    }
 }
 
 pub(super) fn stopped(path: &Path) -> Error {

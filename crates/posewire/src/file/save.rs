@@ -159,8 +159,10 @@ fn refused(path: &Path, kind: io::ErrorKind, reason: &str) -> Error {
 fn check(path: &Path, overwrite: bool) -> Result<()> {
     let refuse = |kind, reason| refused(path, kind, reason);
     check_folder(path)?;
-    let Ok(there) = fs::metadata(path) else {
-        return Ok(());
+    let there = match fs::metadata(path) {
+        Ok(there) => there,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        Err(error) => return Err(Error::write(path.display().to_string(), &error)),
     };
     if there.is_dir() {
         return Err(refuse(io::ErrorKind::IsADirectory, "it is a folder"));
@@ -187,14 +189,17 @@ fn write_beside(
     path: &Path,
     fill: impl FnOnce(&mut dyn WriteSeek) -> Result<(), Problem>,
 ) -> Result<NamedTempFile, Problem> {
-    let mut name = OsString::from(".");
-    name.push(path.file_name().unwrap_or_default());
-    name.push(".");
+    // Where a link leads to another disk, a file beside the link could not be renamed to what it leads to.
+    let whole = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let name = whole.file_name().unwrap_or_default().to_string_lossy();
+    // As long as names may be, so that there is room for more.
+    let name: String = name.chars().take(LONGEST_PREFIX).collect();
+    let prefix = format!(".{name}.");
     let mut builder = tempfile::Builder::new();
-    builder.prefix(&name).suffix(".part");
+    builder.prefix(&prefix).suffix(".part");
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(ALL_BUT_MASKED));
-    let mut file = builder.tempfile_in(folder_of(path))?;
+    let mut file = builder.tempfile_in(folder_of(&whole))?;
     fill(file.as_file_mut())?;
     file.as_file().sync_all()?;
     Ok(file)
@@ -226,6 +231,9 @@ fn folder_of(path: &Path) -> &Path {
     folder.unwrap_or(Path::new("."))
 }
 
+/// Characters, of which each has four bytes at most, of the 255 bytes that a name may have.
+const LONGEST_PREFIX: usize = 60;
+
 /// As any new file: the system takes away what its mask says.
 #[cfg(unix)]
 const ALL_BUT_MASKED: u32 = 0o666;
@@ -253,6 +261,31 @@ mod tests {
         assert_eq!(give_name(file, &path, false), Ok(5));
         assert_eq!(names(&folder), ["take.bvh"]);
         assert_eq!(fs::read(&path).unwrap(), b"whole");
+    }
+
+    #[test]
+    fn names_are_as_long_as_the_disk_allows() {
+        let folder = TempDir::new().unwrap();
+        let path = folder.path().join("n".repeat(255));
+        let file = write_beside(&path, |out| Ok(out.write_all(b"whole")?)).unwrap();
+        assert_eq!(give_name(file, &path, false), Ok(5));
+        let error = check(&folder.path().join("n".repeat(256)), false).unwrap_err();
+        assert_eq!(error.help().as_deref(), Some("choose a shorter name"), "{error}");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_a_link_leads_to_is_written_in_its_own_folder() {
+        let [here, there] = [(); 2].map(|()| TempDir::new().unwrap());
+        let (link, whole) = (here.path().join("link.bvh"), there.path().join("take.bvh"));
+        fs::write(&whole, "old").unwrap();
+        std::os::unix::fs::symlink(&whole, &link).unwrap();
+        let file = write_beside(&link, |out| {
+            assert_eq!((names(&here).len(), names(&there).len()), (1, 2));
+            Ok(out.write_all(b"new")?)
+        });
+        assert_eq!(give_name(file.unwrap(), &link, true), Ok(3));
+        assert_eq!(fs::read(&whole).unwrap(), b"new");
     }
 
     #[test]

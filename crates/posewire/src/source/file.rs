@@ -64,7 +64,7 @@ impl TakeFile {
 /// [`Error::Read`] when the file cannot be opened, [`Error::Take`] when it is not a take.
 pub(crate) fn open(path: &Path, salvage: bool) -> Result<Reader<BufReader<File>>> {
     let file = File::open(path).map_err(|error| Error::read(path, &error))?;
-    let reader = Reader::new(BufReader::with_capacity(BUFFER, file)).map_err(|error| Error::take(path, error))?;
+    let reader = Reader::new(BufReader::with_capacity(BUFFER, file)).map_err(|error| Error::take(path, error, 0))?;
     Ok(reader.salvage(salvage))
 }
 
@@ -92,7 +92,8 @@ impl Frames for TakeFile {
     fn next_sample(&mut self, frames: &mut Vec<Frame>) -> Result<bool> {
         while self.last.is_none() {
             let frame = self.reader.next().transpose();
-            let completed = match frame.map_err(|error| Error::take(&self.path, error))? {
+            let before = self.reader.counts().normal;
+            let completed = match frame.map_err(|error| Error::take(&self.path, error, before))? {
                 Some(frame) => self.complete(frame),
                 None => self.last.insert(self.differences.finish().collect()).pop_front(),
             };

@@ -63,7 +63,7 @@ impl Plan {
         let plan = Self {
             jobs,
             samples: samples(arguments)?,
-            rate: rate(arguments)?,
+            rate: arguments.rate,
             duration: arguments.duration,
             reading: super::reading(arguments),
             writing: writing(arguments),
@@ -153,6 +153,14 @@ impl Output {
             return Err(Usage {
                 problem: format!("{} is a file, and several takes go into a folder", path.display()),
                 help: "name a folder behind the takes".to_owned(),
+            }
+            .into());
+        }
+        let text = path.to_string_lossy();
+        if let (None, Ok(named), false) = (format, format_of(&text), path.is_dir()) {
+            return Err(Usage {
+                problem: format!("several takes go into a folder, and {text} names a file of {named}"),
+                help: format!("name a folder, with --format {}", named.ending()),
             }
             .into());
         }
@@ -287,16 +295,6 @@ fn samples(arguments: &Convert) -> Result<RangeInclusive<u32>, Usage> {
         });
     }
     Ok(samples)
-}
-
-fn rate(arguments: &Convert) -> Result<Option<f64>, Usage> {
-    match arguments.rate {
-        Some(rate) if !(rate > 0.0 && rate.is_finite()) => Err(Usage {
-            problem: format!("expected a rate above 0, found {rate}"),
-            help: "leave the rate out to keep every sample".to_owned(),
-        }),
-        rate => Ok(rate),
-    }
 }
 
 fn writing(arguments: &Convert) -> WriteOptions {

@@ -13,9 +13,10 @@ pub(super) fn standard_streams(inputs: &[String], output: &str) -> Result<(), Us
             help: "name a file; one that is called - is ./-".to_owned(),
         });
     }
-    if output == "-" {
+    let streams = ["/dev/stdout", "/dev/stderr", "/dev/fd/", "/proc/self/fd/"];
+    if output == "-" || streams.iter().any(|stream| output.starts_with(stream)) {
         return Err(Usage {
-            problem: "takes are not written to the standard output (-)".to_owned(),
+            problem: format!("takes are not written to the standard output ({output})"),
             help: "name a file, or a folder with --format; one that is called - is ./-".to_owned(),
         });
     }

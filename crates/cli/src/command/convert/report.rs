@@ -69,6 +69,11 @@ impl Report {
         Self { damage, ..self }
     }
 
+    /// Whether the input ended before its end.
+    pub(super) fn is_damaged(&self) -> bool {
+        self.damage.is_some()
+    }
+
     /// With which samples of the input stood out of order.
     pub(super) fn reordered(self, reordered: Reordered) -> Self {
         Self { reordered, ..self }

@@ -4,11 +4,13 @@
 //! the null pose. A joint turns by Y, X and Z in this order (`R = Ry * Rx * Rz`), in degrees, against its parent; the root
 //! is placed too. Measured segments are not rigidly linked, as a BVH skeleton is: with
 //! [`BvhOptions::translations`](super::BvhOptions::translations) every joint is placed in its parent, which keeps the
-//! measured positions. Frames follow each other at the take's rate, and what is not tracked stays where it was.
+//! measured positions. Frames follow each other at the take's rate; at a sample that is missing the pose before stays, and so does
+//! what is not tracked.
 
 mod hierarchy;
 mod pose;
 
+use super::grid::grid;
 use super::problem::Problem;
 use super::text::Line;
 use super::{Job, LeftOut, Output};
@@ -28,25 +30,35 @@ pub(super) fn write(job: &Job<'_>, out: &mut Output<'_>) -> Result<LeftOut, Prob
     let rate = job.rate(FileFormat::Bvh)?;
     let hierarchy = Hierarchy::of(take, job.options.bvh.translations);
     write_hierarchy(&hierarchy, job.space, out)?;
-    writeln!(out, "MOTION\nFrames: {}\nFrame Time: {:.10}", take.len(), 1.0 / rate)?;
-    let held = write_motion(job, &hierarchy, out)?;
+    let grid = grid(take);
+    writeln!(out, "MOTION\nFrames: {}\nFrame Time: {:.10}", grid.len(), 1.0 / rate)?;
+    let held = write_motion(job, &hierarchy, &grid, out)?;
     Ok(left_out(job, held))
 }
 
 /// Writes all frames, and gives in how many something was not tracked.
-fn write_motion(job: &Job<'_>, hierarchy: &Hierarchy, out: &mut Output<'_>) -> io::Result<usize> {
+fn write_motion(
+    job: &Job<'_>,
+    hierarchy: &Hierarchy,
+    grid: &[Option<usize>],
+    out: &mut Output<'_>,
+) -> io::Result<usize> {
     let mut poses = Poses::new(job, hierarchy);
+    let standing = job.options.bvh.first_frame_is_t_pose.then(|| {
+        let mut poses = Poses::new(job, hierarchy);
+        poses.stand(hierarchy);
+        poses
+    });
     let mut turns = Turns::new(hierarchy.joints.len());
     let mut line = Line::new(' ');
     let mut held = 0;
-    for frame in 0..job.take.len() {
-        if frame == 0 && job.options.bvh.first_frame_is_t_pose {
-            poses.stand(hierarchy);
-        } else if !poses.read(frame) {
-            held += 1;
-        }
+    for (number, frame) in grid.iter().enumerate() {
+        let standing = standing.as_ref().filter(|_| number == 0);
+        let whole = frame.is_none_or(|frame| poses.read(frame));
+        held += usize::from(!whole && standing.is_none());
+        let shown = standing.unwrap_or(&poses);
         for (place, joint) in hierarchy.joints.iter().enumerate() {
-            let (position, rotation) = poses.local(joint);
+            let (position, rotation) = shown.local(joint);
             if joint.is_placed {
                 add_vector(&mut line, job.space.position_from_canonical(position));
             }
@@ -54,7 +66,7 @@ fn write_motion(job: &Job<'_>, hierarchy: &Hierarchy, out: &mut Output<'_>) -> i
             add_vector(&mut line, DVec3::new(y, x, z));
         }
         line.end(out, "\n")?;
-        job.progress.advance(1)?;
+        job.progress.advance(u64::from(frame.is_some()))?;
     }
     Ok(held)
 }

@@ -124,3 +124,29 @@ fn what_is_not_tracked_stays_where_it_was_and_is_said() {
     assert!(left_out.contains("not tracked in 1 of 3 frames"), "{left_out}");
     assert!(left_out.contains("up to 31.6 mm at jL5S1"), "{left_out}");
 }
+
+#[test]
+fn the_pose_before_stays_over_missing_samples() {
+    let bent = bent();
+    let mut take = Take::new(Arc::clone(&bent.subject), 50.0);
+    for (sample, place) in [(7, 0), (10, 1)] {
+        let mut frame = bent.frame(place);
+        frame.sample = sample;
+        take.push(&frame).unwrap();
+    }
+    let lines = |take, options: &WriteOptions| {
+        let text = text_of(FileFormat::Bvh, take, options);
+        let motion = text.split_once("MOTION\n").unwrap().1;
+        motion.lines().map(str::to_owned).collect::<Vec<_>>()
+    };
+    let usual = WriteOptions::default();
+    let (close, wide) = (lines(bent, &usual), lines(take.clone(), &usual));
+    assert_eq!(wide[0], "Frames: 4");
+    assert_eq!(
+        wide[2..],
+        [&close[2], &close[2], &close[2], &close[3]].map(String::clone)
+    );
+    let mut standing = usual;
+    standing.bvh.first_frame_is_t_pose = true;
+    assert_eq!(lines(take, &standing)[3..], wide[3..]);
+}

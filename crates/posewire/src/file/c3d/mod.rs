@@ -13,6 +13,7 @@
 mod parameters;
 
 use super::format::symbol;
+use super::grid::grid;
 use super::output::Output;
 use super::problem::Problem;
 use super::tracks::{Track, Values, tracks};
@@ -42,7 +43,7 @@ pub(super) fn write(job: &Job<'_>, out: &mut Output<'_>) -> Result<LeftOut, Prob
         take,
         tracks: &tracks,
         space: job.space,
-        frames: frames(take),
+        frames: grid(take),
         // They belong to no section that can be asked for.
         events: if job.options.sections.is_none() {
             take.events()
@@ -194,9 +195,6 @@ impl File<'_> {
         if wanted.contains(&Section::Position) && self.take.column(Section::Orientation).is_none() {
             left_out.push("landmarks, which need orientations");
         }
-        if self.frames.len() == self.take.len() {
-            left_out = left_out.and(FileFormat::closes_up(self.take));
-        }
         if let Some(more @ 1..) = self.events.len().checked_sub(MOST) {
             left_out.push(format!("the last {more} of {} events", self.events.len()));
         }
@@ -207,25 +205,6 @@ impl File<'_> {
     fn short_length(&self) -> u16 {
         u16::try_from(self.frames.len()).unwrap_or(u16::MAX)
     }
-}
-
-/// The frames of the file. C3D has no times, so a sample that is missing is a frame in which nothing was tracked, unless the
-/// samples' numbers are out of order or far apart.
-fn frames(take: &Take) -> Vec<Option<usize>> {
-    let samples = take.samples();
-    let (Some(first), Some(last)) = (samples.first(), samples.last()) else {
-        return Vec::new();
-    };
-    let rise = samples.is_sorted_by(|before, after| before < after);
-    let length = last.saturating_sub(*first) as usize + 1;
-    if !rise || length > take.len().saturating_mul(LONGEST) {
-        return (0..take.len()).map(Some).collect();
-    }
-    let mut frames = vec![None; length];
-    for (place, sample) in samples.iter().enumerate() {
-        frames[(sample - first) as usize] = Some(place);
-    }
-    frames
 }
 
 /// Readers break where the group or its rate is not there.
@@ -247,8 +226,6 @@ fn no_force_plates(to: &mut Parameters) {
     to.word("USED", 0);
 }
 
-/// How many times as many frames as the take has a file may have for the sake of time.
-const LONGEST: usize = 10;
 /// Bytes of a point of a frame.
 const POINT: usize = 16;
 /// A scale below 0 says that coordinates are `f32`.
