@@ -1,6 +1,9 @@
 //! The command line: verbs, options and the words that explain them.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use posewire::endpoint::FileFormat;
+use posewire::file::RATES;
+use posewire_motion::Section;
 use posewire_natnet::Version;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -27,6 +30,7 @@ Where motion comes from and goes to:
                             \"synthetic:walk?people=2&rate=240&props=1&fingers=true\"
   take.mvnx, take.mvnx.gz   a take exported from MVN
   take.mcap, .pcap, .pcapng datagrams as they were recorded or captured
+  take.bvh, .csv, .c3d ...  what convert writes for other tools; posewire convert --help lists them
 
 Put quotes around what has a ? or a &: shells give them a meaning of their own.
 
@@ -41,6 +45,7 @@ pub(crate) enum Command {
     Record(Record),
     Replay(Replay),
     Inspect(Inspect),
+    Convert(Convert),
     Explain(Explain),
     Demo(Demo),
 }
@@ -72,8 +77,9 @@ pub(crate) struct Stream {
     /// Datagram types for MXTP targets, by number and with commas, or `all`.
     ///
     /// 01 Euler, 02 quaternion, 03 points, 05 Unity, 12 meta, 13 scale, 20 joint angles, 21 linear and 22 angular
-    /// kinematics, 23 trackers, 24 centre of mass, 25 timecode. What a take lacks is computed where that is possible.
-    #[arg(long, value_name = "TYPES", default_value = "02,12,13,20,24,25")]
+    /// kinematics, 23 trackers, 24 centre of mass, 25 timecode. What a take lacks is computed where that is possible;
+    /// a centre of mass is then an estimate.
+    #[arg(long, value_name = "TYPES", default_value = Self::TYPES)]
     pub(crate) types: String,
 
     #[command(flatten)]
@@ -107,9 +113,18 @@ pub(crate) struct Stream {
     #[arg(long)]
     pub(crate) no_wait: bool,
 
+    /// Drop a NatNet client that has said nothing for so many seconds; 10 unless set. Multicast has no clients.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
+    pub(crate) silence: Option<Duration>,
+
     /// Print the numbers at the end as one JSON object.
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+impl Stream {
+    /// The types that MVN sends unless told otherwise.
+    pub(crate) const TYPES: &str = "02,12,13,20,24,25";
 }
 
 /// How a file or the walker is played.
@@ -321,11 +336,25 @@ pub(crate) struct Replay {
     pub(crate) json: bool,
 }
 
-/// Say what a take or a recording holds.
+/// Say what a take or a recording holds, and with --verify whether a take agrees with itself.
 #[derive(Debug, Args)]
 #[command(after_help = "\
+What --verify checks, and beyond what it says \"look at this\":
+  angles        joint and ergonomic angles, recomputed from the orientations   0.003 degrees
+  quaternions   how far their length is from 1; six decimals explain 0.000001  0.00001
+  gaps          how far the two ends of a joint come apart                     50 mm
+  dropouts      samples missing or out of order, segments not tracked          any
+  clock         the time of day (ms) against sample number and rate:
+                jitter, off the straight line in 99 of 100 samples             half a sample, 2 ms
+                drift, faster or slower than the rate says                     200 ppm + 3 errors
+  velocities    against the differences of positions and orientations          half their size,
+                                                                               0.1 m/s, 0.3 rad/s
+Of several limits the largest counts; + 3 errors: and three times the drift's own standard error.
+Close to a quarter turn of the middle angle (gimbal lock) angles are not compared but counted.
+
 Examples:
   posewire inspect take.mvnx
+  posewire inspect take.mvnx --verify
   posewire inspect take.mcap
   posewire inspect cut-off.mcap --recover -o whole.mcap
   posewire inspect cut-off.mvnx --salvage
@@ -333,6 +362,10 @@ Examples:
 pub(crate) struct Inspect {
     /// An .mvnx or .mvnx.gz file, or an .mcap file.
     pub(crate) file: PathBuf,
+
+    /// Check also whether the take agrees with itself: angles, quaternions, gaps, dropouts, the clock, velocities.
+    #[arg(long)]
+    pub(crate) verify: bool,
 
     /// Print one JSON object.
     #[arg(long)]
@@ -351,6 +384,147 @@ pub(crate) struct Inspect {
     pub(crate) output: Option<PathBuf>,
 }
 
+/// Write takes in the formats of other tools, or as MVNX again.
+#[derive(Debug, Args)]
+#[command(
+    override_usage = "posewire convert [OPTIONS] <IN>... <OUT>",
+    after_help = "\
+Formats, and the axes and unit that their tools expect:
+  mvnx, mvnx.gz   MVN's own: Z up, m
+  csv             tables with the names of MVN's Excel export: Z up, m, degrees
+  bvh             animation, rigid bones: Y up, cm
+  gltf, glb       a figure for any viewer: Y up, m
+  c3d             landmarks and joint centres: Z up, mm
+  trc, mot, sto   OpenSim: the same (Y up, mm), joint angles (degrees), orientations of segments
+  npz             NumPy arrays: Z up, m, radians
+  parquet         columns for DuckDB, Polars and Spark: Z up, m, degrees
+
+What a format cannot hold is said. A file appears whole or not at all; Ctrl-C leaves none behind, but a second one, which
+waits for nothing, can leave a hidden .part file.
+docs/convert.md says what each file holds and how everything in it is named.
+
+Examples:
+  posewire convert take.mvnx take.bvh
+  posewire convert take.mvnx arm.csv --from 100 --to 500 --only position,joint_angles
+  posewire convert old.mvnx new.mvnx --mvnx-version 4
+  posewire convert monday/walk.mvnx tuesday/run.mvnx.gz for_opensim/ --format trc
+  posewire convert take.mvnx take.npz --rate 100 --axes unity
+  posewire convert \"synthetic:walk?fingers=true\" --duration 10 walk.glb
+  posewire convert mxtp://0.0.0.0 live.mvnx               until Ctrl-C, a file for each subject"
+)]
+pub(crate) struct Convert {
+    /// IN: takes (.mvnx, .mvnx.gz), synthetic:walk with --duration, or a live stream. OUT: the file to write, its format told
+    /// by its name; or with --format a folder.
+    // One list, because a parser of two would end the first where an option stands.
+    #[arg(required = true, value_name = "PATH", num_args = 1..)]
+    pub(crate) paths: Vec<String>,
+
+    /// The format, where OUT does not say it.
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) format: Option<FileFormat>,
+
+    /// The first sample to write, by its number.
+    #[arg(long, value_name = "SAMPLE", value_parser = sample, allow_negative_numbers = true)]
+    pub(crate) from: Option<u32>,
+
+    /// The last sample to write, by its number.
+    #[arg(long, value_name = "SAMPLE", value_parser = sample, allow_negative_numbers = true)]
+    pub(crate) to: Option<u32>,
+
+    /// Write so many samples a second, interpolated.
+    #[arg(long, value_name = "HZ", value_parser = rate, allow_negative_numbers = true)]
+    pub(crate) rate: Option<f64>,
+
+    /// Other axes than the format's tools expect.
+    #[arg(long, value_enum, ignore_case = true)]
+    pub(crate) axes: Option<Axes>,
+
+    /// Another unit of lengths.
+    #[arg(long, value_enum, ignore_case = true)]
+    pub(crate) unit: Option<Unit>,
+
+    /// Write these sections alone, with commas, as in position,orientation.
+    #[arg(long, value_name = "SECTION,...", value_delimiter = ',', value_parser = section, long_help = SECTIONS)]
+    pub(crate) only: Vec<Section>,
+
+    /// Replace files that are there already.
+    #[arg(long)]
+    pub(crate) overwrite: bool,
+
+    /// Use a damaged file up to the damage.
+    #[arg(long)]
+    pub(crate) salvage: bool,
+
+    /// Take so many seconds of the walker or of a live stream.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
+    pub(crate) duration: Option<Duration>,
+
+    /// Print a JSON object for each take.
+    #[arg(long)]
+    pub(crate) json: bool,
+
+    #[command(flatten)]
+    pub(crate) of_format: OfFormat,
+}
+
+const SECTIONS: &str = "\
+Write these sections alone, with commas: position, orientation, velocity, acceleration, angular_velocity, \
+angular_acceleration, joint_angles, joint_angles_xzy, ergonomic_angles, ergonomic_angles_xzy, sensor_orientation, \
+sensor_free_acceleration, sensor_acceleration, sensor_angular_velocity, sensor_magnetic_field, center_of_mass, \
+center_of_mass_velocity, center_of_mass_acceleration.
+
+One that the take lacks is computed where that is possible.";
+
+/// What one format alone can have.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Options of one format")]
+pub(crate) struct OfFormat {
+    /// MVNX: the version to write, 3 or 4; that of the file, else 4.
+    #[arg(long, value_name = "VERSION")]
+    pub(crate) mvnx_version: Option<posewire_mvnx::Version>,
+
+    /// CSV: a file for each section, `take_position.csv` and so on.
+    #[arg(long)]
+    pub(crate) csv_sheets: bool,
+
+    /// BVH: place every joint where it was measured, in six channels, and not as rigid bones have it.
+    #[arg(long)]
+    pub(crate) bvh_translations: bool,
+
+    /// BVH: put the T-pose in the place of the first frame, as MVN can.
+    #[arg(long)]
+    pub(crate) bvh_t_pose: bool,
+
+    #[command(flatten)]
+    pub(crate) parquet: ParquetArguments,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ParquetArguments {
+    /// Parquet: whole millionths, lossless for MVNX and small.
+    #[arg(long = "parquet-micro-units", id = "parquet-micro-units")]
+    pub(crate) micro_units: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Axes {
+    /// Right-handed, X forward, Y left, Z up: MVN.
+    ZUp,
+    /// Right-handed, X left, Y up, Z forward.
+    YUp,
+    /// Left-handed, X right, Y up, Z forward.
+    Unity,
+    /// Left-handed, X forward, Y right, Z up.
+    Unreal,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Unit {
+    M,
+    Cm,
+    Mm,
+}
+
 /// Explain the bytes of MXTP datagrams or NatNet packets, field by field.
 #[derive(Debug, Args)]
 #[command(
@@ -359,7 +533,8 @@ pub(crate) struct Inspect {
 The file holds one datagram, or several back to back: of MXTP as TCP carries them, of NatNet by the sizes they state.
 Of a recording (.mcap) or a capture (.pcap, .pcapng) each datagram is explained, with its time and its sender.
 
-No NatNet packet says which bitstream it is of. Without --version the newest whose layout fits is taken.
+No NatNet frame or description says which bitstream it is of. Without --version it is what a SERVERINFO in the same input
+says, else the newest whose layout fits all of them.
 
 Examples:
   posewire explain packet.bin
@@ -381,7 +556,7 @@ pub(crate) struct Explain {
     pub(crate) summary: bool,
 
     /// The bitstream that NatNet frames and descriptions are of.
-    #[arg(long, value_name = "M.m")]
+    #[arg(long, value_name = "M.m", value_parser = bitstream)]
     pub(crate) version: Option<Version>,
 
     /// Print JSON, one object for each datagram.
@@ -435,6 +610,39 @@ fn moment(text: &str) -> Result<Duration, String> {
     let expected = || "expected a number of seconds from 0 on, as in 2.5".to_owned();
     let seconds = text.parse().map_err(|_| expected())?;
     Duration::try_from_secs_f64(seconds).map_err(|_| expected())
+}
+
+/// A version of which the layout is known.
+fn bitstream(text: &str) -> Result<Version, String> {
+    let [oldest, ..] = Version::LAYOUTS;
+    let is_known = |version: &Version| {
+        let plain = Version::new(version.major, version.minor) == *version;
+        plain && (oldest..=Version::LATEST).contains(version)
+    };
+    let version = text.parse().ok().filter(is_known);
+    version.ok_or_else(|| format!("expected a version from {oldest} to {}", Version::LATEST))
+}
+
+/// The number of a sample, as `inspect` shows it.
+fn sample(text: &str) -> Result<u32, String> {
+    text.parse()
+        .map_err(|_| format!("expected the number of a sample, from 0 to {}", u32::MAX))
+}
+
+/// A rate to write at.
+fn rate(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(rate) if RATES.contains(&rate) => Ok(rate),
+        _ => Err("expected a rate from 0.001 Hz and below 1,000,000 Hz, as in 120".to_owned()),
+    }
+}
+
+/// The name of a section, in either case.
+fn section(text: &str) -> Result<Section, String> {
+    text.trim().to_ascii_lowercase().parse().map_err(|_| {
+        let names: Vec<_> = Section::ALL.iter().map(|section| section.name()).collect();
+        format!("expected the name of a section: {}", names.join(", "))
+    })
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {

@@ -1,5 +1,6 @@
 //! The verbs, one file each.
 
+mod convert;
 mod demo;
 mod explain;
 mod inspect;
@@ -40,6 +41,7 @@ pub(crate) fn run(command: Command) -> anyhow::Result<End> {
         Command::Monitor(arguments) => monitor::run(&arguments),
         Command::Record(arguments) => record::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
+        Command::Convert(arguments) => convert::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Replay(arguments) => replay::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),

@@ -3,8 +3,8 @@
 use posewire::stop::Stop;
 use posewire::{Item, Result, Sink, SourceId};
 use std::io::{IsTerminal, Write};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
@@ -19,6 +19,48 @@ pub(crate) fn stop_on_interrupt() -> anyhow::Result<Stop> {
         on_interrupt.stop();
     })?;
     Ok(stop)
+}
+
+/// What Ctrl-C ends: what is being captured, if anything is, and else the work.
+#[derive(Clone, Default)]
+pub(crate) struct Stops {
+    pub(crate) work: Stop,
+    capture: Arc<Mutex<Option<Stop>>>,
+}
+
+impl Stops {
+    /// The stop of a capture that begins. What it captured can then be written, until Ctrl-C is pressed again.
+    pub(crate) fn begin_capture(&self) -> Stop {
+        let stop = Stop::new();
+        *self.capturing() = Some(stop.clone());
+        stop
+    }
+
+    pub(crate) fn end_capture(&self) {
+        *self.capturing() = None;
+    }
+
+    fn interrupt(&self) {
+        if let Some(capture) = self.capturing().take() {
+            capture.stop();
+        } else if self.work.is_stopped() {
+            std::process::exit(130);
+        } else {
+            self.work.stop();
+        }
+    }
+
+    fn capturing(&self) -> MutexGuard<'_, Option<Stop>> {
+        self.capture.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Stops that Ctrl-C and a request to terminate set; once all is stopped, another one ends the program at once.
+pub(crate) fn stops_on_interrupt() -> anyhow::Result<Stops> {
+    let stops = Stops::default();
+    let on_interrupt = stops.clone();
+    ctrlc::set_handler(move || on_interrupt.interrupt())?;
+    Ok(stops)
 }
 
 /// Sets `stop` after a while, if one is given.
@@ -44,15 +86,15 @@ pub(crate) fn say(text: impl std::fmt::Display) {
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
 
-/// Says what a source has to say, and keeps how many datagrams the kernel dropped before the source saw them.
+/// Says what a source has to say, and keeps how many datagrams were lost on this machine before the source could read them.
 #[derive(Clone, Default)]
 pub(crate) struct Teller {
-    kernel_dropped: Arc<AtomicU64>,
+    lost_here: Arc<AtomicU64>,
 }
 
 impl Teller {
-    pub(crate) fn kernel_dropped(&self) -> u64 {
-        self.kernel_dropped.load(Ordering::Relaxed)
+    pub(crate) fn lost_here(&self) -> u64 {
+        self.lost_here.load(Ordering::Relaxed)
     }
 }
 
@@ -63,7 +105,7 @@ impl Sink for Teller {
                 end_progress();
                 say(notice);
             }
-            Item::Statistics(statistics) => self.kernel_dropped.store(statistics.kernel_dropped, Ordering::Relaxed),
+            Item::Statistics(statistics) => self.lost_here.store(statistics.lost_here(), Ordering::Relaxed),
             _ => {}
         }
         Ok(())

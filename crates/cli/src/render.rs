@@ -6,7 +6,7 @@ mod server;
 pub(crate) use recording::{losses, recorded, recording, recording_line};
 pub(crate) use server::{delivery, kind, model, unknown_latencies};
 
-use crate::plain::{cut, printable};
+use crate::plain::{cut, plural, printable};
 use posewire::faults::FaultCounts;
 use posewire::sink::{ClientProgress, Progress, TargetProgress};
 use posewire::source::Preview;
@@ -24,14 +24,14 @@ pub(crate) fn who(preview: &Preview) -> String {
         1 => " and 1 other".to_owned(),
         more => format!(" and {more} others"),
     };
-    let segments = subject.skeleton.segments.len();
+    let segments = plural(subject.skeleton.segments.len() as u64, "segment");
     let name = printable(&subject.name);
-    format!(": {name}{others}, {segments} segments, {} Hz", preview.rate_hz)
+    format!(": {name}{others}, {segments}, {} Hz", preview.rate_hz)
 }
 
 /// How far a stream has come, on one line.
 pub(crate) fn progress_line(progress: &Progress) -> String {
-    let mut line = format!("{} samples sent, {}", progress.frames, lateness(progress));
+    let mut line = format!("{} sent{}", plural(progress.frames, "sample"), lateness(progress));
     match progress.lost() {
         0 => {}
         lost => _ = write!(line, ", {lost} LOST"),
@@ -40,12 +40,15 @@ pub(crate) fn progress_line(progress: &Progress) -> String {
 }
 
 fn lateness(progress: &Progress) -> String {
-    format!("lateness {}", progress.lateness)
+    match progress.frames {
+        0 => String::new(),
+        _ => format!(", lateness {}", progress.lateness),
+    }
 }
 
 /// How a stream went, a line for each target. `unsent` is what was lost here before it could be sent.
 pub(crate) fn stream_summary(progress: &Progress, unsent: u64) -> String {
-    let mut text = format!("sent {} samples, {}", progress.frames, lateness(progress));
+    let mut text = format!("sent {}{}", plural(progress.frames, "sample"), lateness(progress));
     if unsent > 0 {
         _ = write!(
             text,
@@ -121,11 +124,13 @@ pub(crate) fn statistics(statistics: &Statistics) -> String {
 
 /// What went wrong with a stream as a whole: counts above zero, in words.
 pub(crate) fn troubles(statistics: &Statistics) -> impl Iterator<Item = (u64, &'static str)> {
+    let refused = statistics.server.as_ref().map_or(0, |server| server.refused);
     let all = [
         (statistics.kernel_dropped, "dropped by the kernel"),
         (statistics.malformed, "malformed"),
         (statistics.skipped_bytes, "bytes skipped"),
         (statistics.characters_refused, "of too many characters"),
+        (refused, "refused while no server was connected"),
     ];
     all.into_iter().filter(|(count, _)| *count > 0)
 }
@@ -134,10 +139,10 @@ fn subject_table(text: &mut String, of_subject: &SubjectStatistics) {
     let subject = &of_subject.subject;
     _ = write!(
         text,
-        "character {} {}, {} segments",
+        "character {} {}, {}",
         subject.id,
         printable(&subject.name),
-        subject.skeleton.segments.len()
+        plural(subject.skeleton.segments.len() as u64, "segment")
     );
     if let Some(timecode) = of_subject.timecode {
         _ = write!(text, ", {timecode}");
@@ -183,3 +188,16 @@ fn milliseconds(duration: Duration) -> f64 {
 }
 
 const TABLE_HEAD: &str = "  ty type                 Hz strd   whole missed  dup late rst inc p99 ms max ms\n";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_not_sent_was_not_late() {
+        let mut progress = Progress::default();
+        assert_eq!(stream_summary(&progress, 0), "sent 0 samples");
+        progress.frames = 1;
+        assert!(stream_summary(&progress, 0).starts_with("sent 1 sample, lateness p50 0.00 ms"));
+    }
+}

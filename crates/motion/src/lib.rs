@@ -22,11 +22,13 @@
 //! assert_eq!(unity, DVec3::new(-2.0, 3.0, 1.0));
 //! ```
 
+mod column;
 mod error;
 mod frame;
 pub mod kinematics;
 mod pose;
 pub mod rotation;
+mod section;
 mod skeleton;
 mod space;
 pub mod standard;
@@ -34,12 +36,14 @@ mod subject;
 mod take;
 mod time;
 
+pub use column::Column;
 pub use error::Error;
 pub use frame::{CenterOfMass, Frame, Marker};
 pub use glam::{DMat3, DQuat, DVec3};
 pub use pose::Pose;
+pub use section::{Per, Section};
 pub use skeleton::{Connector, ErgonomicAngle, Joint, Point, Segment, SegmentKind, Skeleton};
 pub use space::{Handedness, Space, Unit, Up};
 pub use subject::{Color, Subject};
-pub use take::Take;
+pub use take::{Frames, Reordered, Take};
 pub use time::{Stamp, Timecode};

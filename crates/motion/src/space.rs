@@ -1,5 +1,6 @@
 //! Axes and units of the world outside.
 
+use crate::Section;
 use glam::{DMat3, DQuat, DVec3};
 
 /// Which axis points up.
@@ -119,6 +120,31 @@ impl Space {
         }
     }
 
+    /// An angular velocity or acceleration of this space from a canonical one: its axis, about which a left-handed space
+    /// turns the other way round.
+    pub fn turn_from_canonical(self, v: DVec3) -> DVec3 {
+        self.axis(v, Self::vector_from_canonical)
+    }
+
+    /// Makes canonical numbers of a section, its entries side by side as in a [`Column`](crate::Column), this space's.
+    ///
+    /// Positions, velocities and accelerations get its axes and its unit; orientations, angular velocities and
+    /// accelerations its axes and hand; a magnetic field, which is a direction, its axes. What is in a sensor's own axes
+    /// changes as what is in the world, because those axes are named anew as well. Joint angles are the same in every space.
+    /// What is NaN stays so.
+    pub fn section_from_canonical(self, section: Section, values: &mut [f64]) {
+        for entry in values.chunks_exact_mut(section.components()) {
+            match *entry {
+                [w, x, y, z] => {
+                    let q = self.orientation_from_canonical(DQuat::from_xyzw(x, y, z, w));
+                    entry.copy_from_slice(&[q.w, q.x, q.y, q.z]);
+                }
+                [x, y, z] => entry.copy_from_slice(&self.vector_of(section, DVec3::new(x, y, z)).to_array()),
+                _ => {}
+            }
+        }
+    }
+
     /// A rotation of this space from a canonical one.
     pub fn orientation_from_canonical(self, q: DQuat) -> DQuat {
         self.rotate_axis(q, Self::vector_from_canonical)
@@ -135,15 +161,32 @@ impl Space {
         DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z))
     }
 
-    /// A rotation's axis maps as a vector; mirroring the space turns it the other way round.
+    fn vector_of(self, section: Section, v: DVec3) -> DVec3 {
+        match section {
+            Section::AngularVelocity | Section::AngularAcceleration | Section::SensorAngularVelocity => {
+                self.turn_from_canonical(v)
+            }
+            Section::JointAngles | Section::JointAnglesXzy | Section::ErgonomicAngles | Section::ErgonomicAnglesXzy => {
+                v
+            }
+            Section::SensorMagneticField => self.vector_from_canonical(v),
+            _ => self.position_from_canonical(v),
+        }
+    }
+
     fn rotate_axis(self, q: DQuat, map: fn(Self, DVec3) -> DVec3) -> DQuat {
-        let axis = map(self, DVec3::new(q.x, q.y, q.z));
-        let axis = if self.handedness == Handedness::Left {
+        let axis = self.axis(DVec3::new(q.x, q.y, q.z), map);
+        DQuat::from_xyzw(axis.x, axis.y, axis.z, q.w)
+    }
+
+    /// An axis of turning maps as a vector; mirroring the space turns it the other way round.
+    fn axis(self, axis: DVec3, map: fn(Self, DVec3) -> DVec3) -> DVec3 {
+        let axis = map(self, axis);
+        if self.handedness == Handedness::Left {
             -axis
         } else {
             axis
-        };
-        DQuat::from_xyzw(axis.x, axis.y, axis.z, q.w)
+        }
     }
 }
 
@@ -168,7 +211,35 @@ mod tests {
         }
     }
 
+    #[test]
+    fn a_section_gets_the_axes_the_unit_and_the_hand_of_the_space() {
+        let unreal = |section| {
+            let mut values = [1.0, 2.0, 3.0];
+            Space::UNREAL.section_from_canonical(section, &mut values);
+            values.to_vec()
+        };
+        assert_eq!(unreal(Section::Position), [100.0, -200.0, 300.0]);
+        assert_eq!(unreal(Section::Velocity), [100.0, -200.0, 300.0]);
+        assert_eq!(unreal(Section::AngularVelocity), [-1.0, 2.0, -3.0]);
+        assert_eq!(unreal(Section::SensorMagneticField), [1.0, -2.0, 3.0]);
+        assert_eq!(unreal(Section::JointAngles), [1.0, 2.0, 3.0]);
+        let mut values = [0.9, 0.1, 0.2, 0.3, f64::NAN, f64::NAN, f64::NAN, f64::NAN];
+        Space::UNREAL.section_from_canonical(Section::Orientation, &mut values);
+        assert_eq!(values[..4].to_vec(), [0.9, -0.1, 0.2, -0.3]);
+        assert!(values[4..].iter().all(|value| value.is_nan()));
+    }
+
     proptest! {
+        #[test]
+        fn what_turns_at_a_velocity_turns_at_the_mapped_one(x in -3.0..3.0_f64, y in -3.0..3.0_f64, z in -3.0..3.0_f64) {
+            let (v, p) = (DVec3::new(x, y, z), DVec3::new(y, z, 1.0));
+            for space in ALL {
+                let mapped = space.turn_from_canonical(v).cross(space.vector_from_canonical(p));
+                let expected = space.vector_from_canonical(v.cross(p));
+                prop_assert!((mapped - expected).length() < 1e-9);
+            }
+        }
+
         #[test]
         fn an_f32_of_any_space_survives_the_way_to_canonical_and_back(x: f32, y: f32, z: f32) {
             let p = DVec3::new(f64::from(x), f64::from(y), f64::from(z));

@@ -1,4 +1,4 @@
-//! What can be wrong with an MVNX file.
+//! What can be wrong with an MVNX file, or with writing one.
 
 use std::fmt;
 use std::io;
@@ -18,7 +18,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// Why a file is not MVNX that can be read, and where.
+/// Why a file is not MVNX that can be read, and where; or why one cannot be written.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -57,6 +57,26 @@ pub enum Error {
         kind: io::ErrorKind,
         /// What the operating system or the decompressor says.
         message: String,
+    },
+    /// The file could not be written.
+    #[error("writing failed: {message}")]
+    Write {
+        /// What kind of failure it is.
+        kind: io::ErrorKind,
+        /// What the operating system says.
+        message: String,
+    },
+    /// A frame to write whose section does not fit the document.
+    #[error("{section} of sample {sample}: expected {expected} entries, found {found}")]
+    Misfit {
+        /// The section's element.
+        section: &'static str,
+        /// The frame's sample number.
+        sample: u32,
+        /// Entries that the document defines.
+        expected: usize,
+        /// Entries that the frame holds.
+        found: usize,
     },
     /// The file is not well-formed XML.
     #[error("{at}: malformed XML: {message}")]
@@ -174,6 +194,16 @@ pub enum Error {
         /// How many there may be.
         limit: u64,
     },
+}
+
+impl Error {
+    /// The error of a failed write.
+    pub(crate) fn of_write(error: &io::Error) -> Self {
+        Self::Write {
+            kind: error.kind(),
+            message: error.to_string(),
+        }
+    }
 }
 
 /// Bytes as they are shown in a message.

@@ -1,13 +1,12 @@
 //! Reads one frame.
 
+use crate::elements::Elements;
 use crate::error::clip;
 use crate::head::read_leaf_numbers;
 use crate::section::{Layout, Section};
 use crate::sections::SectionSummary;
-use crate::xml::Xml;
 use crate::{Error, Place};
 use posewire_motion::{CenterOfMass, DQuat, DVec3, Frame, Timecode};
-use std::io::BufRead;
 use std::time::Duration;
 
 /// The attributes of a frame.
@@ -22,7 +21,7 @@ pub(crate) struct FrameTag {
 
 impl FrameTag {
     /// Reads the start tag on which the reader stands.
-    pub(crate) fn read<R: BufRead>(xml: &Xml<R>, rate: Option<f64>) -> Result<Self, Error> {
+    pub(crate) fn read(xml: &impl Elements, rate: Option<f64>) -> Result<Self, Error> {
         let place = xml.place();
         let mut tag = Self {
             kind: "normal".to_owned(),
@@ -32,9 +31,9 @@ impl FrameTag {
             timecode: None,
         };
         let (mut clock, mut milliseconds) = (String::new(), None);
-        for (name, value) in xml.attributes()? {
+        xml.each_attribute(|name, value| {
             let text = value.trim();
-            match name.as_str() {
+            match name {
                 _ if text.is_empty() => {}
                 "type" => text.clone_into(&mut tag.kind),
                 "time" => tag.time = Some(read_time(text, place)?),
@@ -43,7 +42,8 @@ impl FrameTag {
                 "tc" => value.clone_into(&mut clock),
                 _ => {}
             }
-        }
+            Ok(())
+        })?;
         tag.timecode = match milliseconds {
             Some(milliseconds) if milliseconds > 0 => Some(Timecode::from_milliseconds(milliseconds)),
             // Neither clock was running.
@@ -51,6 +51,11 @@ impl FrameTag {
             _ => read_clock(&clock, rate),
         };
         Ok(tag)
+    }
+
+    /// Whether the frame says which sample it is.
+    pub(crate) fn is_numbered(&self) -> bool {
+        self.index.is_some()
     }
 
     /// Gives `frame` the sample number and times; `number` counts the frames read before.
@@ -84,10 +89,15 @@ impl FrameReader {
         }
     }
 
+    /// Another reader of the same file, which has seen no frame yet.
+    pub(crate) fn another(&self) -> Self {
+        Self::new(self.layout, self.corrections.clone())
+    }
+
     /// Reads the frame on whose start tag the reader stands into an empty one; goes to its end tag.
-    pub(crate) fn read<R: BufRead>(
+    pub(crate) fn read(
         &mut self,
-        xml: &mut Xml<R>,
+        xml: &mut impl Elements,
         tag: &FrameTag,
         number: u64,
         frame: &mut Frame,
@@ -122,7 +132,7 @@ impl FrameReader {
         Ok(())
     }
 
-    fn read_section<R: BufRead>(&mut self, xml: &mut Xml<R>, section: Section, frame: &mut Frame) -> Result<(), Error> {
+    fn read_section(&mut self, xml: &mut impl Elements, section: Section, frame: &mut Frame) -> Result<(), Error> {
         let at = xml.place();
         read_leaf_numbers(xml, section.name(), &mut self.numbers)?;
         self.layout.check(section, self.numbers.len(), at)?;
@@ -177,10 +187,14 @@ pub(crate) struct Sections {
 
 impl Sections {
     /// Counts an element of the frame.
-    pub(crate) fn count<R: BufRead>(&mut self, xml: &Xml<R>) -> Result<(), Error> {
+    pub(crate) fn count(&mut self, xml: &impl Elements) -> Result<(), Error> {
         self.elements += 1;
         if self.elements > MAX_ELEMENTS {
-            return Err(xml.too_many("elements in a frame", MAX_ELEMENTS));
+            return Err(Error::TooMany {
+                at: xml.place(),
+                what: "elements in a frame",
+                limit: MAX_ELEMENTS as u64,
+            });
         }
         Ok(())
     }

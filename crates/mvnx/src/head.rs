@@ -1,5 +1,6 @@
 //! Reads what stands before the frames.
 
+use crate::elements::Elements;
 use crate::error::clip;
 use crate::header::{
     ConnectorDefinition, ErgonomicAngleDefinition, Header, JointDefinition, PointDefinition, SegmentDefinition,
@@ -221,8 +222,8 @@ fn read_vector<R: BufRead>(xml: &mut Xml<R>, section: &'static str) -> Result<DV
 }
 
 /// Reads the numbers of the element on whose start tag the reader stands; goes to its end tag.
-pub(crate) fn read_leaf_numbers<R: BufRead>(
-    xml: &mut Xml<R>,
+pub(crate) fn read_leaf_numbers(
+    xml: &mut impl Elements,
     section: &'static str,
     to: &mut Vec<f64>,
 ) -> Result<(), Error> {

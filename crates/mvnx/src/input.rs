@@ -1,6 +1,8 @@
-//! The bytes of a file: decompressed, checked for being text, counted and bounded.
+//! The text of a file: decompressed, as UTF-8, checked for being text, counted and bounded.
 
 use crate::error::clip;
+use crate::rewind::Rewind;
+use crate::utf16::{Order, Utf16};
 use crate::{Error, Place};
 use flate2::bufread::MultiGzDecoder;
 use std::io::{self, BufRead, BufReader, Chain, Cursor, Read};
@@ -10,7 +12,7 @@ type Ahead<R> = Chain<Cursor<Vec<u8>>, R>;
 
 /// A file's text, with the place that it was read to and a bound on what one piece of markup may take.
 pub(crate) struct Input<R> {
-    text: Ahead<Source<R>>,
+    text: Rewind<Text<R>>,
     place: Place,
     /// Bytes that may still be read before [`begin`](Self::begin) is called again.
     left: usize,
@@ -21,7 +23,7 @@ pub(crate) struct Input<R> {
 pub(crate) const MAX_PIECE: usize = 1 << 20;
 
 impl<R: BufRead> Input<R> {
-    /// Looks at the first bytes: gzip is decompressed, what cannot be XML is refused.
+    /// Looks at the first bytes: gzip is decompressed, UTF-16 becomes UTF-8, what cannot be XML is refused.
     pub(crate) fn new(bytes: R) -> Result<Self, Error> {
         let (magic, bytes) = look_ahead(bytes, GZIP.len())?;
         let source = if magic == GZIP {
@@ -29,14 +31,33 @@ impl<R: BufRead> Input<R> {
         } else {
             Source::Plain(bytes)
         };
-        let (beginning, text) = look_ahead(source, 512)?;
-        check_text(&beginning)?;
-        Ok(Self {
-            text,
+        let (beginning, mut bytes) = look_ahead(source, 512)?;
+        let Some((order, is_marked)) = Order::of(&beginning) else {
+            check_text(&beginning, &beginning)?;
+            return Ok(Self::of(Text::Utf8(bytes)));
+        };
+        let mark = if is_marked { 2 } else { 0 };
+        bytes.consume(mark);
+        let mut text = Vec::new();
+        let decoded = Utf16::new(&beginning[mark..], order).read_to_end(&mut text);
+        decoded.map_err(|error| io_error(START, &error))?;
+        check_text(&text, &beginning)?;
+        Ok(Self::of(Text::Utf16(Box::new(Utf16::new(bytes, order)))))
+    }
+
+    /// Text that is known to be in the middle of a file, and what is to stand before it.
+    pub(crate) fn within(before: &str, bytes: R) -> Self {
+        let bytes = Cursor::new(before.into()).chain(bytes);
+        Self::of(Text::Utf8(Cursor::new(Vec::new()).chain(Source::Plain(bytes))))
+    }
+
+    fn of(text: Text<R>) -> Self {
+        Self {
+            text: Rewind::new(text),
             place: START,
             left: MAX_PIECE,
             ended: false,
-        })
+        }
     }
 
     /// How far the file was read.
@@ -57,6 +78,16 @@ impl<R: BufRead> Input<R> {
     /// Whether reading stopped because the piece is too long.
     pub(crate) fn exhausted(&self) -> bool {
         self.left == 0
+    }
+
+    /// Counts on from this place.
+    pub(crate) fn set_place(&mut self, place: Place) {
+        self.place = place;
+    }
+
+    /// The bytes that were not read yet, to be taken out and put back without being counted.
+    pub(crate) fn rest(&mut self) -> &mut Rewind<impl BufRead + use<R>> {
+        &mut self.text
     }
 }
 
@@ -86,6 +117,37 @@ impl<R: BufRead> BufRead for Input<R> {
         self.place.offset += count as u64;
         self.left = self.left.saturating_sub(count);
         self.text.consume(count);
+    }
+}
+
+/// Text in UTF-8, or made so.
+enum Text<R> {
+    Utf8(Ahead<Source<R>>),
+    Utf16(Box<Utf16<Ahead<Source<R>>>>),
+}
+
+impl<R: BufRead> Read for Text<R> {
+    fn read(&mut self, to: &mut [u8]) -> io::Result<usize> {
+        match self {
+            Self::Utf8(text) => text.read(to),
+            Self::Utf16(text) => text.read(to),
+        }
+    }
+}
+
+impl<R: BufRead> BufRead for Text<R> {
+    fn fill_buf(&mut self) -> io::Result<&[u8]> {
+        match self {
+            Self::Utf8(text) => text.fill_buf(),
+            Self::Utf16(text) => text.fill_buf(),
+        }
+    }
+
+    fn consume(&mut self, count: usize) {
+        match self {
+            Self::Utf8(text) => text.consume(count),
+            Self::Utf16(text) => text.consume(count),
+        }
     }
 }
 
@@ -140,9 +202,9 @@ pub(crate) fn io_error(at: Place, error: &io::Error) -> Error {
     }
 }
 
-/// XML in UTF-8 begins with `<`, after a byte order mark and white space at most.
-fn check_text(beginning: &[u8]) -> Result<(), Error> {
-    let text = beginning.strip_prefix(BYTE_ORDER_MARK).unwrap_or(beginning);
+/// XML begins with `<`, after a byte order mark and white space at most: `text` in UTF-8, of these `bytes`.
+fn check_text(text: &[u8], bytes: &[u8]) -> Result<(), Error> {
+    let text = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
     let text = text.trim_ascii_start();
     match text.first() {
         None | Some(b'<') => Ok(()),
@@ -151,7 +213,7 @@ fn check_text(beginning: &[u8]) -> Result<(), Error> {
             found: clip(&String::from_utf8_lossy(text)),
         }),
         Some(_) => Err(Error::Binary {
-            found: beginning.iter().copied().take(8).collect(),
+            found: bytes.iter().copied().take(8).collect(),
         }),
     }
 }
@@ -199,6 +261,19 @@ mod tests {
     }
 
     #[test]
+    fn utf_16_becomes_utf_8_zipped_or_not() {
+        let text = "<mvnx>\n\u{1f57a}".repeat(700);
+        let marked = std::iter::once(0xfeff).chain(text.encode_utf16());
+        let marked: Vec<_> = marked.flat_map(u16::to_le_bytes).collect();
+        assert_eq!(text_of(&marked).as_ref(), Ok(&text));
+        let plain: Vec<_> = text.encode_utf16().flat_map(u16::to_be_bytes).collect();
+        assert_eq!(text_of(&plain).as_ref(), Ok(&text));
+        let mut gzip = GzEncoder::new(Vec::new(), Compression::fast());
+        gzip.write_all(&marked).unwrap();
+        assert_eq!(text_of(&gzip.finish().unwrap()).as_ref(), Ok(&text));
+    }
+
+    #[test]
     fn binary_data_and_other_text_are_told_apart() {
         assert_eq!(
             text_of(b"PK\x03\x04 and more"),
@@ -206,7 +281,7 @@ mod tests {
                 found: b"PK\x03\x04 and".to_vec()
             })
         );
-        assert!(matches!(text_of(b"\xff\xfe<\0m\0"), Err(Error::Binary { .. })));
+        assert!(matches!(text_of(b"\xff\xfe\x01\0m\0"), Err(Error::Binary { .. })));
         assert_eq!(
             text_of(b"HIERARCHY\nROOT Hips"),
             Err(Error::NotMvnx {

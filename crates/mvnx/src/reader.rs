@@ -1,6 +1,12 @@
 //! The streaming reader.
 
+mod blocks;
+mod parallel;
+mod take;
+mod whole;
+
 use crate::calibration::{Calibration, CalibrationKind, read_calibration};
+use crate::document::Around;
 use crate::error::clip;
 use crate::frame::{FrameReader, FrameTag};
 use crate::head::{keep_unknown, read_head, read_tail};
@@ -11,10 +17,11 @@ use crate::sections::SectionInfo;
 use crate::skeleton::build_subject;
 use crate::xml::Xml;
 use crate::{Error, Place};
-use posewire_motion::{DQuat, Frame, Subject, Take};
+use posewire_motion::{DQuat, Frame, Subject};
 use std::fmt;
 use std::io::BufRead;
 use std::sync::Arc;
+pub use take::read_take;
 
 /// Reads an MVNX file of version 3 or 4, plain or gzip-compressed, frame by frame.
 ///
@@ -37,8 +44,12 @@ pub struct Reader<R> {
     frames: FrameReader,
     counts: FrameCounts,
     salvage: bool,
+    /// How many threads [`read_take`] uses; as many as there are cores when it is 0.
+    threads: usize,
     damage: Option<Error>,
     state: State,
+    /// What stands around the frames, to be written again.
+    around: Around,
 }
 
 /// How many frames of each type were read so far.
@@ -70,12 +81,14 @@ impl<R: BufRead> Reader<R> {
     /// no sense.
     pub fn new(bytes: R) -> Result<Self, Error> {
         let mut xml = Xml::new(Input::new(bytes)?);
+        Around::begin(&mut xml);
         let mut header = read_head(&mut xml)?;
         let layout = Layout::new(&header);
         let (mut calibration, mut counts) = (Vec::new(), FrameCounts::default());
         let state = read_calibrations(&mut xml, &mut header, &layout, &mut calibration, &mut counts)?;
         let subject = Arc::new(build_subject(&header, &calibration)?);
         let frames = FrameReader::new(layout, corrections(&header, &subject));
+        let around = Around::of_head(&mut xml, matches!(state, State::Tag(_)));
         let mut reader = Self {
             xml,
             header,
@@ -85,11 +98,13 @@ impl<R: BufRead> Reader<R> {
             frames,
             counts,
             salvage: false,
+            threads: 0,
             damage: None,
             state,
+            around,
         };
         if matches!(reader.state, State::Done) {
-            read_tail(&mut reader.xml, &mut reader.header)?;
+            reader.read_tail()?;
         }
         Ok(reader)
     }
@@ -100,6 +115,14 @@ impl<R: BufRead> Reader<R> {
     #[must_use]
     pub fn salvage(mut self, salvage: bool) -> Self {
         self.salvage = salvage;
+        self
+    }
+
+    /// How many threads [`read_take`] uses, 8 at most; with 0, which is the usual, one for each core. The result is the
+    /// same with any number.
+    #[must_use]
+    pub fn threads(mut self, threads: usize) -> Self {
+        self.threads = threads;
         self
     }
 
@@ -152,7 +175,7 @@ impl<R: BufRead> Reader<R> {
                 State::Tag(tag) => tag,
                 State::Between => {
                     let Some(tag) = next_tag(&mut self.xml, &mut self.header)? else {
-                        read_tail(&mut self.xml, &mut self.header)?;
+                        self.read_tail()?;
                         return Ok(None);
                     };
                     tag
@@ -165,6 +188,14 @@ impl<R: BufRead> Reader<R> {
             let to = &mut self.calibration;
             read_other(&mut self.xml, &tag, &self.layout, to, &mut self.counts)?;
         }
+    }
+
+    /// Reads from the end tag of the frames to the end of the file.
+    fn read_tail(&mut self) -> Result<(), Error> {
+        Around::begin_tail(&mut self.xml);
+        read_tail(&mut self.xml, &mut self.header)?;
+        self.around.end_tail(&mut self.xml);
+        Ok(())
     }
 
     fn read_frame(&mut self, tag: &FrameTag) -> Result<Frame, Error> {
@@ -201,24 +232,6 @@ impl<R> fmt::Debug for Reader<R> {
             .field("damage", &self.damage)
             .finish_non_exhaustive()
     }
-}
-
-/// Reads the rest of a file into memory.
-///
-/// # Errors
-/// What ends the reader's iteration, unless it salvages; [`Error::MissingAttribute`] when the subject has no `frameRate`.
-pub fn read_take<R: BufRead>(reader: &mut Reader<R>) -> Result<Take, Error> {
-    let rate = reader.subject.rate.ok_or(Error::MissingAttribute {
-        at: reader.place(),
-        element: "subject",
-        attribute: "frameRate",
-    })?;
-    let mut take = Take::new(Arc::clone(&reader.subject), rate);
-    for frame in reader {
-        // Every section was checked against the same definitions that the skeleton is made of.
-        let _ = take.push(frame?);
-    }
-    Ok(take)
 }
 
 impl FrameTag {

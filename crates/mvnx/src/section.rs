@@ -56,6 +56,11 @@ impl Section {
         row.map(|row| row.0)
     }
 
+    /// All sections in the order in which MVN writes them.
+    pub(crate) fn all() -> impl Iterator<Item = Self> {
+        TABLE.iter().map(|row| row.0)
+    }
+
     /// Its element name.
     pub(crate) fn name(self) -> &'static str {
         self.row().1
@@ -110,6 +115,16 @@ impl Layout {
         }
     }
 
+    /// Of a file that defines segments only: of body and props, of the left and of the right hand.
+    pub(crate) fn of_segments([segments, left_fingers, right_fingers]: [usize; 3]) -> Self {
+        Self {
+            segments,
+            left_fingers,
+            right_fingers,
+            ..Self::default()
+        }
+    }
+
     /// Segments of body, props and hands.
     pub(crate) fn all_segments(&self) -> usize {
         self.segments + self.left_fingers + self.right_fingers
@@ -118,6 +133,11 @@ impl Layout {
     /// Joints of body and hands.
     pub(crate) fn all_joints(&self) -> usize {
         self.joints + self.left_finger_joints + self.right_finger_joints
+    }
+
+    /// The section with this element name, when the file has what it has entries for.
+    pub(crate) fn section(&self, name: &str) -> Option<Section> {
+        Section::of(name).filter(|&section| self.entries(section) > 0)
     }
 
     /// How many entries a section has. None means that the file has it, if at all, without saying of what.

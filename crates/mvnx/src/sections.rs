@@ -1,11 +1,10 @@
 //! What sections the frames of a file hold, for `inspect`.
 
+use crate::elements::Elements;
 use crate::error::clip;
 use crate::number::count_words;
 use crate::section::Section;
-use crate::xml::Xml;
 use crate::{Error, Place};
-use std::io::BufRead;
 
 /// A section as the frames of a file hold it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -50,7 +49,7 @@ impl SectionSummary {
     }
 
     /// Passes over the unknown section on whose start tag the reader stands, and counts it.
-    pub(crate) fn read_unknown<R: BufRead>(&mut self, xml: &mut Xml<R>) -> Result<(), Error> {
+    pub(crate) fn read_unknown(&mut self, xml: &mut impl Elements) -> Result<(), Error> {
         let name = clip(xml.name());
         if let Some(info) = self.find(&name) {
             info.frames += 1;
@@ -70,6 +69,23 @@ impl SectionSummary {
             text: raw.text,
         });
         Ok(())
+    }
+
+    /// Adds the sections of frames that follow those seen so far. `false` when there are too many to say what reading the
+    /// frames one after the other would have kept; nothing is added then.
+    pub(crate) fn append(&mut self, mut following: Self) -> bool {
+        let is_new = |info: &SectionInfo| self.list.iter().all(|known| known.name != info.name);
+        let new = following.list.iter().filter(|info| is_new(info)).count();
+        if self.list.len() + new >= MAX_SECTIONS {
+            return false;
+        }
+        for info in following.list.drain(..) {
+            match self.list.iter_mut().find(|known| known.name == info.name) {
+                Some(known) => known.frames += info.frames,
+                None => self.list.push(info),
+            }
+        }
+        true
     }
 
     /// The section of this name. Frames hold the same sections in the same order, so that the first look finds it.

@@ -6,7 +6,7 @@ use crate::error::clip;
 use crate::header::{ConnectorDefinition, Header, JointDefinition, PointDefinition, SegmentDefinition};
 use crate::null_pose;
 use posewire_motion::{
-    Connector, DQuat, DVec3, ErgonomicAngle, Joint, Point, Segment, SegmentKind, Skeleton, Subject, standard,
+    Connector, DQuat, DVec3, ErgonomicAngle, Joint, Point, Segment, SegmentKind, Skeleton, Subject, rotation, standard,
 };
 use std::collections::HashMap;
 
@@ -159,7 +159,8 @@ fn apply_calibration(segments: &mut [Segment], version: u32, calibration: &[Cali
         },
     };
     for (segment, axes) in segments.iter_mut().zip(axes.into_iter().flatten()) {
-        segment.isb = axes.and_then(unit).unwrap_or(segment.isb);
+        let axes = axes.and_then(unit).unwrap_or(segment.isb);
+        segment.isb = exact(axes, segment.isb);
     }
 }
 
@@ -181,6 +182,19 @@ fn unit(q: DQuat) -> Option<DQuat> {
     }
     let turns = DVec3::new(q.x, q.y, q.z) != DVec3::ZERO;
     Some(if turns { q / length } else { DQuat::IDENTITY })
+}
+
+/// The nominal axes with the sign of those found, when six decimals cannot tell the two apart.
+///
+/// Without it each conversion between the versions would add its own rounding.
+fn exact(found: DQuat, nominal: DQuat) -> DQuat {
+    let nominal = rotation::continuous(nominal, found);
+    let same = (found - nominal).length() < 5e-6;
+    if same && found != DQuat::IDENTITY {
+        nominal
+    } else {
+        found
+    }
 }
 
 fn joints(header: &Header, places: &Places<'_>) -> Result<Vec<Joint>, Error> {
@@ -270,6 +284,15 @@ mod tests {
         assert_eq!(between(&[q], &[q]), [Some(DQuat::IDENTITY)]);
         assert_eq!(unit(DQuat::from_xyzw(-0.0, 0.0, 0.0, 1.0)), Some(DQuat::IDENTITY));
         assert_eq!(unit(DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0)), None);
+    }
+
+    #[test]
+    fn six_decimals_of_nominal_axes_are_the_nominal_axes() {
+        let nominal = standard::BODY_SEGMENTS[8].isb();
+        let rounded = DQuat::from_array((-nominal).to_array().map(|number| (number * 1e6).round() / 1e6));
+        assert_eq!(exact(rounded, nominal), -nominal);
+        let other = DQuat::from_rotation_z(0.001) * nominal;
+        assert_eq!(exact(other, nominal), other);
     }
 
     #[test]

@@ -1,7 +1,9 @@
 //! XML one step at a time, with bounded memory and the place of everything.
 
+use crate::elements::Elements;
 use crate::error::clip;
 use crate::input::{Input, io_error};
+use crate::markup::Markup;
 use crate::{Error, Place};
 use quick_xml::XmlVersion;
 use quick_xml::events::{BytesRef, BytesStart, Event};
@@ -25,6 +27,8 @@ pub(crate) struct Xml<R> {
     /// How long the path was before each open element.
     depths: Vec<usize>,
     raw: Option<Raw>,
+    /// What is read is added here, so that it can be written again.
+    record: Option<Markup>,
 }
 
 /// What a step of an [`Xml`] reader stands on.
@@ -68,7 +72,28 @@ impl<R: BufRead> Xml<R> {
             path: String::new(),
             depths: Vec::new(),
             raw: None,
+            record: None,
         }
+    }
+
+    /// Adds all markup that is read from here on to `to`.
+    pub(crate) fn record(&mut self, to: Markup) {
+        self.record = Some(to);
+    }
+
+    /// Ends the recording and gives it back, if there was one.
+    pub(crate) fn recorded(&mut self) -> Option<Markup> {
+        self.record.take()
+    }
+
+    /// The start tag read last, without its brackets.
+    pub(crate) fn tag(&self) -> &str {
+        &self.tag
+    }
+
+    /// The file from which it reads.
+    pub(crate) fn input(&mut self) -> &mut Input<R> {
+        self.events.get_mut()
     }
 
     /// Where the step begins on which the reader stands.
@@ -194,6 +219,9 @@ impl<R: BufRead> Xml<R> {
             if let Some(raw) = &mut self.raw {
                 raw.push_event(&event);
             }
+            if let Some(record) = &mut self.record {
+                record.push_event(&event, self.events.get_ref().place() != self.place);
+            }
             return match event {
                 Event::Start(tag) | Event::Empty(tag) => {
                     self.tag.clear();
@@ -266,7 +294,74 @@ impl<R: BufRead> Xml<R> {
     }
 }
 
+impl<R: BufRead> Elements for Xml<R> {
+    fn offset(&self) -> u64 {
+        self.events.get_ref().place().offset
+    }
+
+    fn place(&self) -> Place {
+        self.place()
+    }
+
+    fn name(&self) -> &str {
+        self.name()
+    }
+
+    fn each_attribute(&self, mut read: impl FnMut(&str, &str) -> Result<(), Error>) -> Result<(), Error> {
+        let attributes = self.attributes()?;
+        attributes.iter().try_for_each(|(name, value)| read(name, value))
+    }
+
+    fn child(&mut self) -> Result<bool, Error> {
+        self.child()
+    }
+
+    fn leaf(&mut self) -> Result<(&[u8], Place), Error> {
+        self.leaf()
+    }
+
+    fn leaf_string(&mut self) -> Result<String, Error> {
+        self.leaf_string()
+    }
+
+    fn skip(&mut self) -> Result<(), Error> {
+        self.skip()
+    }
+
+    fn skip_keeping(&mut self, limit: usize) -> Result<Raw, Error> {
+        self.skip_keeping(limit)
+    }
+
+    fn text(&self) -> &[u8] {
+        self.text()
+    }
+}
+
+impl<'a> Xml<&'a [u8]> {
+    /// A reader of a part of a file, the first byte of which stands at `place` and within elements with these start tags.
+    pub(crate) fn within(tags: &str, part: &'a [u8], place: Place) -> Result<Self, Error> {
+        let mut xml = Self::new(Input::within(tags, part));
+        for _ in tags.matches('<') {
+            xml.child()?;
+        }
+        xml.input().set_place(place);
+        Ok(xml)
+    }
+}
+
 impl Raw {
+    /// That of an element that holds text and nothing else.
+    pub(crate) fn of_leaf(name: &str, text: &str, limit: usize) -> Self {
+        let mut raw = Self {
+            limit,
+            ..Self::default()
+        };
+        for piece in ["<", name, ">", text, "</", name, ">"] {
+            raw.push([piece]);
+        }
+        raw
+    }
+
     fn push<const N: usize>(&mut self, pieces: [&str; N]) {
         for piece in pieces {
             let room = self.limit - self.text.len();

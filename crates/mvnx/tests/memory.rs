@@ -1,6 +1,6 @@
-//! Memory does not grow with the length of a file.
+//! Memory does not grow with the length of a file, read or written.
 
-use posewire_mvnx::Reader;
+use posewire_mvnx::{Reader, Remainder, Version, Writer};
 use std::io::{self, BufReader, Read};
 
 const HEAD: &str = r#"<mvnx version="4"><subject label="Ada" frameRate="240"><segments><segment label="Pelvis" id="1"/>
@@ -44,4 +44,28 @@ fn most_bytes(frames: usize) -> u64 {
 #[test]
 fn a_long_take_takes_no_more_memory_than_a_short_one() {
     assert_eq!(most_bytes(20_000), most_bytes(200));
+}
+
+/// The most bytes that are in use at once while a take of so many frames is read and written.
+fn most_bytes_rewritten(frames: usize) -> u64 {
+    let body = Frames {
+        left: frames,
+        rest: &[],
+    };
+    let file = HEAD.as_bytes().chain(body).chain(TAIL.as_bytes());
+    let counts = allocation_counter::measure(|| {
+        let mut reader = Reader::new(BufReader::new(file)).unwrap();
+        let mut writer = Writer::new(io::sink(), &reader.document(), Version::V3).unwrap();
+        let mut remainder = Remainder::default();
+        while let Some(frame) = reader.read_whole(&mut remainder) {
+            writer.write_whole(&frame.unwrap(), &remainder).unwrap();
+        }
+        writer.finish(&reader.document()).unwrap();
+    });
+    counts.bytes_max
+}
+
+#[test]
+fn a_long_take_that_is_rewritten_takes_no_more_memory_than_a_short_one() {
+    assert_eq!(most_bytes_rewritten(20_000), most_bytes_rewritten(2_000));
 }

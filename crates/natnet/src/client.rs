@@ -58,8 +58,8 @@ use timers::Timers;
 ///
 /// It has no socket and no clock. Hand it every datagram of the command socket, and of the data socket
 /// where there is one, with the time of its arrival; call [`handle_timeout`](Self::handle_timeout) when
-/// [`timeout`](Self::timeout) says; after each of these take what follows with [`poll`](Self::poll). Times must
-/// not go back.
+/// [`timeout`](Self::timeout) says; after each of these take what follows with [`poll`](Self::poll). The time now must
+/// not go back; a datagram that has waited in its socket may have arrived before that, as its time then says.
 ///
 /// The client connects, asks for the version that it wants, reads frames as the version that the server
 /// grants, asks for the descriptions at the beginning and whenever a frame says that they have changed,
@@ -71,6 +71,8 @@ use timers::Timers;
 pub struct Client {
     options: ClientOptions,
     server: Option<Peer>,
+    /// The one that answered last.
+    last_server: Option<SocketAddr>,
     heard: Stamp,
     timers: Timers,
     requests: Requests,
@@ -96,6 +98,7 @@ impl Client {
     pub fn new(now: Stamp, options: ClientOptions) -> Self {
         let mut client = Self {
             server: None,
+            last_server: None,
             heard: now,
             timers: Timers::new(&options),
             requests: Requests::new(options.retry),
@@ -149,6 +152,7 @@ impl Client {
         }
         if self.server.is_some() {
             self.keep_up(now);
+            self.ask_for_clock(now);
         }
     }
 

@@ -1,5 +1,6 @@
 //! The sending side: be Motive to its clients.
 
+mod bones;
 mod clients;
 mod encodings;
 mod event;
@@ -18,11 +19,11 @@ use posewire_motion::Stamp;
 
 use crate::frame::Frame;
 use crate::model::Model;
-use crate::output::{Outputs, Socket, encode};
+use crate::output::{Outputs, Socket};
 use crate::{Error, Message, MessageId, Output, Packet, Version};
 use clients::Clients;
 use encodings::Encodings;
-use send::frame_packet;
+use send::{frame_packet, model_packet};
 
 /// A server of any number of versions at once.
 ///
@@ -32,7 +33,8 @@ use send::frame_packet;
 /// follows with [`poll`](Self::poll). Times must not go back.
 ///
 /// A client that connects is told the version that it will get: the one that it asks for, or the server's own when
-/// that is older or there is no wish. An old client that cannot wish gets what it says that it speaks.
+/// that is older or there is no wish. An old client that cannot wish gets what it says that it speaks. Before 2.1 there are
+/// no skeletons: there, bones are rigid bodies called `Subject/Bone`, with the IDs that bones have in frames.
 ///
 /// Memory is bounded whatever arrives: 64 clients and 512 outputs that wait to be polled for. A client that never
 /// reads costs what it costs to send to it.
@@ -135,11 +137,8 @@ impl Server {
     /// # Errors
     /// [`Error::TooLarge`] when no datagram of the server's own version can carry them; the old ones stay.
     pub fn set_model(&mut self, model: Model) -> Result<(), Error> {
-        let message = Message::Model(model);
-        encode(&message, self.options.version)?;
-        if let Message::Model(model) = message {
-            self.model = model;
-        }
+        model_packet(&model, self.options.version)?;
+        self.model = model;
         self.models.clear();
         self.announcements = ANNOUNCEMENTS;
         self.pauses = self.announced;

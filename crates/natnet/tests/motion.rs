@@ -64,7 +64,7 @@ fn turning(name: &str, id: u32) -> Frame {
     }));
     frame.sample = 4711;
     frame.time = Duration::from_millis(19_629);
-    frame.timecode = "04:17:11.500".parse().ok();
+    frame.timecode = "04:17:11.517".parse().ok();
     let value = |number: usize| f64::from(number as f32 * 0.1 + 0.3);
     frame.position = (0..23)
         .map(|n| Some(DVec3::new(value(n), -value(n + 1), value(n * 2))))

@@ -1,6 +1,6 @@
 //! The time: UTC for stamps, a steady clock for everything that measures durations.
 
-use std::time::{Instant, SystemTime};
+use std::time::{Duration, Instant, SystemTime};
 
 use posewire_motion::Stamp;
 
@@ -47,6 +47,14 @@ impl Clock {
         let after = instant.saturating_duration_since(self.origin);
         Stamp(self.origin_utc.after(after).nanoseconds().saturating_sub(before))
     }
+
+    /// The steady stamp of what arrived a moment ago, by its UTC stamp. One that is longer ago than `longest`, which is at
+    /// least a second, or in the future, is of a clock that was set meanwhile.
+    pub(crate) fn arrival(&self, utc: Stamp, longest: Duration) -> Stamp {
+        let waited = self.now().since(utc).min(longest.max(SHORTEST_LIMIT));
+        let waited = i64::try_from(waited.as_nanos()).unwrap_or_default();
+        Stamp(self.steady().nanoseconds() - waited)
+    }
 }
 
 impl Default for Clock {
@@ -66,11 +74,29 @@ pub(crate) fn stamp_of_kernel(time: nix::sys::time::TimeSpec) -> Stamp {
     Stamp::from_parts(time.tv_sec(), time.tv_nsec())
 }
 
+const SHORTEST_LIMIT: Duration = Duration::from_secs(1);
+
 #[cfg(test)]
 mod tests {
-    use std::time::Duration;
-
     use super::*;
+
+    #[test]
+    fn an_arrival_is_as_long_ago_on_the_steady_clock_unless_utc_was_set() {
+        const SECOND: i64 = 1_000_000_000;
+        let mut clock = Clock::new();
+        clock.origin_utc = Stamp(0);
+        for (ago, limit, longest, shortest) in [
+            (SECOND / 2, 0, SECOND, SECOND / 2),
+            (100 * SECOND, 0, SECOND, SECOND),
+            (100 * SECOND, 200, 101 * SECOND, 100 * SECOND),
+            (-100 * SECOND, 200, 0, 0),
+        ] {
+            let before = clock.steady();
+            let arrival = clock.arrival(Stamp(clock.now().nanoseconds() - ago), Duration::from_secs(limit));
+            let after = clock.steady();
+            assert!((before.0 - longest..=after.0 - shortest).contains(&arrival.0), "{ago}");
+        }
+    }
 
     #[test]
     fn steady_stamps_follow_instants_both_ways() {

@@ -53,7 +53,12 @@ pub enum Endpoint {
     NatNet(NatNetAddress),
     /// The built-in procedural walker. Only a source.
     Synthetic(Walk),
-    /// A file, its format told by its name.
+    /// A file of datagrams as they were captured: `.mcap`, `.pcap` or `.pcapng`; which of them, its content tells.
+    Capture {
+        /// Where the file is.
+        path: PathBuf,
+    },
+    /// A file of a take, its format told by its name.
     File {
         /// Where the file is.
         path: PathBuf,
@@ -72,6 +77,7 @@ impl FromStr for Endpoint {
     fn from_str(text: &str) -> Result<Self> {
         match split_scheme(text) {
             Some((scheme, body)) => parse_url(text, scheme, body),
+            None if file::names_a_capture(text) => Ok(Self::Capture { path: text.into() }),
             None => Ok(Self::File {
                 path: PathBuf::from(text),
                 format: FileFormat::of(text)?,
@@ -87,7 +93,7 @@ impl fmt::Display for Endpoint {
             Self::MxtpTcp(address) => address.fmt(f),
             Self::NatNet(address) => address.fmt(f),
             Self::Synthetic(walk) => walk.fmt(f),
-            Self::File { path, .. } => path.display().fmt(f),
+            Self::Capture { path } | Self::File { path, .. } => path.display().fmt(f),
         }
     }
 }
@@ -159,11 +165,13 @@ mod tests {
             ),
             ("natnet://motive-pc", "natnet://motive-pc:1510?mode=unicast"),
             (
-                "natnet://10.0.0.5:1600?copy=true&skeleton=local&up=z&interface=eth0&group=239.1.1.1&data-port=0\
+                "natnet://10.0.0.5:1600?skeleton=local&up=z&interface=eth0&group=239.1.1.1&data-port=0\
                  &version=3.1&mode=multicast",
                 "natnet://10.0.0.5:1600?mode=multicast&version=3.1&data-port=0&group=239.1.1.1&interface=eth0&up=z\
-                 &skeleton=local&copy=true",
+                 &skeleton=local",
             ),
+            ("natnet://h?up=Z&mode=Multicast", "natnet://h:1510?mode=multicast&up=z"),
+            ("natnet://h?copy=true", "natnet://h:1510?mode=unicast&copy=true"),
             (
                 "natnet://[::1]?data-port=1511&group=239.255.42.99&up=y&skeleton=global&copy=false",
                 "natnet://[::1]:1510?mode=unicast",
@@ -241,8 +249,16 @@ mod tests {
                  found \"10.0.0.1\"",
             ),
             (
+                "natnet://h?group=239.1.1.1",
+                "natnet://h?group=239.1.1.1: expected multicast as the mode of a group, found \"unicast\"",
+            ),
+            (
+                "natnet://h?mode=multicast&copy=true",
+                "natnet://h?mode=multicast&copy=true: expected unicast as the mode of copies, found \"multicast\"",
+            ),
+            (
                 "natnet://h?version=4.6",
-                "natnet://h?version=4.6: expected a version from 1.4 to 4.5 as the version, found \"4.6\"",
+                "natnet://h?version=4.6: expected a number from 1.4 to 4.5 as the version, found \"4.6\"",
             ),
             (
                 "natnet://h?up=x",
@@ -303,11 +319,11 @@ mod tests {
                 mode: if multicast { Mode::Multicast } else { Mode::Unicast },
                 version,
                 data_port,
-                group,
+                group: if multicast { group } else { NatNetAddress::GROUP },
                 interface,
                 up: if z { Up::Z } else { Up::Y },
                 skeleton: if local { Coordinates::Local } else { Coordinates::Global },
-                copy,
+                copy: copy && !multicast,
                 ..NatNetAddress::new(host, port)
             })
         })

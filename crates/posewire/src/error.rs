@@ -1,5 +1,6 @@
 //! What can go wrong in the engine, and what to do about it.
 
+use crate::endpoint::FileFormat;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -135,6 +136,8 @@ pub enum Error {
         path: PathBuf,
         /// What is wrong with it, and where.
         error: posewire_mvnx::Error,
+        /// How many whole frames stand before that.
+        frames: u64,
     },
     /// A file that is no capture of datagrams.
     #[error("{path}: expected a pcap, pcapng or MCAP file, found \"{}\"", found.escape_ascii())]
@@ -220,8 +223,64 @@ pub enum Error {
         /// What the system says.
         reason: String,
     },
-    /// A file that is there and must not be overwritten.
-    #[error("{path} is there already")]
+    /// A word that names no file format.
+    #[error("unknown format {found:?}, expected {}", formats())]
+    Format {
+        /// The word as given.
+        found: String,
+    },
+    /// A file of a format that takes are written in and not read from.
+    #[error("{path}: {format} can be written, not read")]
+    WriteOnly {
+        /// The file.
+        path: String,
+        /// The format's name.
+        format: &'static str,
+    },
+    /// Axes or a unit that a format cannot have.
+    #[error("{format}: expected {expected} as the {what}, which the format fixes, found {found}")]
+    Fixed {
+        /// The format's name.
+        format: &'static str,
+        /// "axes" or "unit".
+        what: &'static str,
+        /// What the format has.
+        expected: String,
+        /// What was asked for.
+        found: String,
+    },
+    /// A take that has nothing of what a format holds, or of which none of that was asked for.
+    #[error("{format} holds {what}, and there are none to write")]
+    Lacks {
+        /// The format's name.
+        format: &'static str,
+        /// What it holds.
+        what: &'static str,
+    },
+    /// Sample numbers of which a take has none.
+    #[error("expected samples {}, found those from {first} to {last}", numbers(*from, *to))]
+    NoSamples {
+        /// The first number asked for.
+        from: u32,
+        /// The last number asked for.
+        to: u32,
+        /// The first number there is.
+        first: u32,
+        /// The last number there is.
+        last: u32,
+    },
+    /// A rate that a take cannot be given.
+    #[error(
+        "expected a rate from 0.001 Hz, below 1,000,000 Hz and at most 1,000 times the {captured} Hz of the take, found {found}"
+    )]
+    NewRate {
+        /// Samples a second that there are.
+        captured: String,
+        /// The rate as given.
+        found: String,
+    },
+    /// A file that is there already.
+    #[error("{} is there already", path.display())]
     Exists {
         /// The file.
         path: PathBuf,
@@ -237,6 +296,20 @@ pub enum Error {
     Compressed {
         /// The file.
         path: PathBuf,
+    },
+    /// Work that was stopped before its end.
+    #[error("stopped while {what}")]
+    Stopped {
+        /// What was being done.
+        what: String,
+    },
+    /// Something that this program was built without.
+    #[error("{what} is not in this build of posewire")]
+    Feature {
+        /// What is missing.
+        what: &'static str,
+        /// The feature of Cargo that brings it.
+        feature: &'static str,
     },
     /// A playback speed that no clock can run at.
     #[error("expected a finite playback speed above 0, found {found}")]
@@ -279,7 +352,7 @@ impl Error {
             } => socket_help(action, address, *kind),
             Self::Stalled { peer, .. } => Some(format!("check that the program at {peer} reads its connection")),
             Self::Read { kind, .. } => read_help(*kind),
-            Self::Take { error, .. } => Some(take_help(error).into()),
+            Self::Take { error, frames, .. } => Some(take_help(error, *frames).into()),
             Self::NotACapture { .. } => Some("record one: posewire record mxtp://0.0.0.0:9763 -o take.mcap".into()),
             Self::NoDatagrams { .. } => {
                 Some("posewire explain FILE --protocol mxtp takes every datagram for MXTP".into())
@@ -289,11 +362,23 @@ impl Error {
             Self::TooLongForIp { .. } => None,
             Self::NoFrames { .. } => Some("posewire inspect says what it holds; export it again from MVN".into()),
             Self::Rate { .. } => Some("leave --rate out to send every sample".into()),
-            Self::NotATarget { .. } => Some("give a network address, as in --to mxtp://127.0.0.1:9763".into()),
+            Self::NotATarget { .. } => {
+                Some("give a network address, as in --to mxtp://127.0.0.1:9763; posewire convert writes files".into())
+            }
             Self::Descriptions { .. } => Some("stream fewer people to NatNet".into()),
             Self::Character { .. } => Some("start at a lower --character, or stream fewer people".into()),
-            Self::Write { .. } => Some("make room there, or send the output elsewhere".into()),
-            Self::Exists { .. } => Some("choose another name, or --overwrite it".into()),
+            Self::Write { kind, .. } => Some(write_help(*kind).into()),
+            Self::Format { .. } => Some("name one of these, as in --format csv".into()),
+            Self::WriteOnly { .. } => Some("give the .mvnx file that it was made from".into()),
+            Self::Fixed { what, .. } => Some(format!(
+                "leave the {what} out, or choose a format that is free in it, as CSV is"
+            )),
+            Self::Lacks { .. } => Some("posewire inspect says what the take holds".into()),
+            Self::NoSamples { .. } => Some("posewire inspect says which samples a take has".into()),
+            Self::NewRate { .. } => Some("leave the rate out to keep every sample".into()),
+            Self::Exists { .. } => Some("choose another name, or replace it with --overwrite".into()),
+            Self::Stopped { .. } => Some("nothing was left half written; start again when you like".into()),
+            Self::Feature { feature, .. } => Some(format!("cargo install --path crates/cli --features {feature}")),
             Self::NotMcap { .. } => Some("give a file that posewire record has written".into()),
             Self::Compressed { .. } => {
                 Some("mcap compress --compression none, a tool of mcap.dev, writes it anew".into())
@@ -312,11 +397,12 @@ impl Error {
         }
     }
 
-    /// What is wrong with a take.
-    pub fn take(path: &Path, error: posewire_mvnx::Error) -> Self {
+    /// What is wrong with a take, behind so many whole frames.
+    pub fn take(path: &Path, error: posewire_mvnx::Error, frames: u64) -> Self {
         Self::Take {
             path: path.to_owned(),
             error,
+            frames,
         }
     }
 
@@ -346,6 +432,12 @@ impl Error {
                 | Self::CapturedSources { .. }
                 | Self::CaptureRate { .. }
                 | Self::Faults { .. }
+                | Self::Format { .. }
+                | Self::WriteOnly { .. }
+                | Self::Fixed { .. }
+                | Self::NoSamples { .. }
+                | Self::NewRate { .. }
+                | Self::Feature { .. }
         )
     }
 
@@ -372,6 +464,19 @@ pub(crate) fn reason(error: &io::Error) -> String {
     text[..end].to_lowercase()
 }
 
+fn formats() -> String {
+    let endings: Vec<_> = FileFormat::ALL.iter().map(|format| format.ending()).collect();
+    listed(&endings)
+}
+
+/// "from 3 to 5", "from 3 on".
+fn numbers(from: u32, to: u32) -> String {
+    match (from, to) {
+        (from, u32::MAX) => format!("from {from} on"),
+        (from, to) => format!("from {from} to {to}"),
+    }
+}
+
 fn url_help(part: &str) -> String {
     match part {
         "host" | "port" | "address" => "write HOST, HOST:PORT or [IPV6]:PORT, as in mxtp://127.0.0.1:9763".into(),
@@ -379,6 +484,9 @@ fn url_help(part: &str) -> String {
         "interface" => "name it as the system does, as in interface=eth0, or by address".into(),
         "generator" => "write synthetic:walk, as in synthetic:walk?people=2&rate=240".into(),
         "scheme" => "write mxtp://HOST:PORT, mxtp+tcp://HOST:PORT or synthetic:walk".into(),
+        "mode of a group" => "add mode=multicast, or leave group out".into(),
+        "mode of copies" => "leave copy out: everybody in a group gets its frames".into(),
+        "copy of a source" => "leave copy out, which is for servers, behind --to".into(),
         option => format!("correct {option}, or leave it out for its default"),
     }
 }
@@ -396,14 +504,27 @@ fn path_help(path: &str) -> String {
     }
 }
 
-fn take_help(error: &posewire_mvnx::Error) -> &'static str {
+fn write_help(kind: io::ErrorKind) -> &'static str {
+    match kind {
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+            "ask for the right to write there, or write elsewhere"
+        }
+        io::ErrorKind::NotFound => "make the folder first, or write elsewhere",
+        io::ErrorKind::IsADirectory | io::ErrorKind::InvalidInput => "name a file",
+        io::ErrorKind::InvalidFilename => "choose a shorter name",
+        _ => "make room there, or send the output elsewhere",
+    }
+}
+
+fn take_help(error: &posewire_mvnx::Error, frames: u64) -> &'static str {
     use posewire_mvnx::Error;
     match error {
         Error::Binary { .. } => "open the take in MVN, export it as MVNX and use the .mvnx file",
         Error::Empty | Error::NotMvnx { .. } => "give a take that was exported from MVN as MVNX",
         Error::Version { .. } => "open the take in a current MVN and export it again as MVNX",
-        Error::Io { .. } | Error::Truncated { .. } | Error::Xml { .. } | Error::Columns { .. } => {
-            "--salvage uses the frames before the damage; exporting again from MVN may mend it"
+        _ if frames > 0 => "--salvage uses the frames before the damage; exporting again from MVN may mend it",
+        Error::Io { .. } | Error::Truncated { .. } => {
+            "export the take again from MVN: there is no whole frame before the damage"
         }
         _ => "export the take again from MVN, or mend the file at that place",
     }
@@ -423,11 +544,17 @@ fn socket_help(action: &str, address: &str, kind: io::ErrorKind) -> Option<Strin
     let text = match kind {
         io::ErrorKind::AddrInUse if action == Error::SERVE_COMMANDS => {
             format!(
-                "another program, such as Motive, has {place}: stop it, or choose another port as in natnet://HOST:1520"
+                "another program, such as Motive, has {place}: stop it, or choose other ports as in \
+                 natnet://HOST:1520?data-port=1521"
             )
         }
         io::ErrorKind::AddrInUse if action == Error::SERVE_FRAMES => {
-            format!("another program has {place}: stop it, or choose another port as in natnet://HOST?data-port=1521")
+            format!(
+                "another program has {place}: stop it, or choose other ports as in natnet://HOST:1520?data-port=1521"
+            )
+        }
+        io::ErrorKind::InvalidInput if place.ends_with(":0") => {
+            "name the port, as Motive's 1510 or MVN's 9763, or leave it out for that".into()
         }
         io::ErrorKind::AddrInUse => {
             format!("another program listens on {place}: stop it or choose another port")
@@ -482,6 +609,16 @@ mod tests {
             error.help().as_deref(),
             Some("another program listens on 127.0.0.1:9763: stop it or choose another port")
         );
+    }
+
+    #[test]
+    fn a_taken_port_of_motive_is_answered_with_two_others() {
+        for action in [Error::SERVE_COMMANDS, Error::SERVE_FRAMES] {
+            let help = socket_help(action, "udp 0.0.0.0:1510", io::ErrorKind::AddrInUse).unwrap();
+            assert!(help.ends_with("natnet://HOST:1520?data-port=1521"), "{help}");
+        }
+        let help = socket_help("connect to", "udp 10.0.0.7:0", io::ErrorKind::InvalidInput);
+        assert!(help.is_some_and(|help| help.starts_with("name the port")));
     }
 
     #[test]

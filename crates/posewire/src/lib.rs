@@ -36,6 +36,7 @@ mod datagram;
 pub mod endpoint;
 mod error;
 pub mod faults;
+pub mod file;
 pub mod histogram;
 mod item;
 pub mod net;

@@ -30,7 +30,7 @@ mod udp_serve;
 pub use backoff::Backoff;
 pub use resolve::resolve;
 pub(crate) use resolve::resolve_first;
-pub(crate) use route::{LocalAddress, broadcast_addresses, is_own};
+pub(crate) use route::{LocalAddress, broadcast_addresses, broadcasts_beside, is_own};
 pub(crate) use tcp::connect_to;
 pub use tcp::{TcpConnection, TcpIncoming, connect, listen};
 pub use udp_receive::{Received, UdpReceiver};

@@ -90,6 +90,8 @@ pub struct Tracking {
     pub tracked: usize,
     /// Frames in which not all of them were tracked, since the subject was first heard of.
     pub frames_untracked: u64,
+    /// Whether no frame has held it yet.
+    pub awaited: bool,
 }
 
 /// How the datagrams of one kind and one numbering are doing.
@@ -159,5 +161,11 @@ impl Statistics {
             streams.map(|stream| (Some(&of.subject), stream))
         });
         server.chain(subjects)
+    }
+
+    /// Datagrams that arrived on this machine and were lost here: dropped by the kernel, or refused while no server was
+    /// connected that says their version.
+    pub fn lost_here(&self) -> u64 {
+        self.kernel_dropped + self.server.as_ref().map_or(0, |server| server.refused)
     }
 }

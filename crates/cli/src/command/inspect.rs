@@ -1,4 +1,4 @@
-//! `posewire inspect`: what a take holds.
+//! `posewire inspect`: what a take holds, and whether it agrees with itself.
 
 mod contents;
 mod input;
@@ -6,6 +6,7 @@ mod recording;
 mod sections;
 mod survey;
 mod text;
+mod verify;
 
 use super::End;
 use crate::cli::Inspect;
@@ -17,6 +18,7 @@ use posewire::stop::Stop;
 use std::io::{self, BufWriter, Write};
 use std::time::{Duration, Instant};
 use survey::Survey;
+use verify::Verifier;
 
 pub(super) fn run(arguments: &Inspect) -> anyhow::Result<End> {
     if recording::is_one(&arguments.file) {
@@ -25,7 +27,7 @@ pub(super) fn run(arguments: &Inspect) -> anyhow::Result<End> {
     recording::refuse(arguments)?;
     let stop = context::stop_on_interrupt()?;
     let mut file = TakeFile::open(&arguments.file, arguments.salvage)?;
-    let survey = read(&mut file, &stop);
+    let survey = read(&mut file, &stop, arguments.verify);
     end_progress();
     let contents = Contents::of(&file, &survey?);
     let mut out = BufWriter::new(io::stdout().lock());
@@ -39,8 +41,12 @@ pub(super) fn run(arguments: &Inspect) -> anyhow::Result<End> {
 }
 
 /// Goes through the frames once, to the end or to the wish to stop.
-fn read(file: &mut TakeFile, stop: &Stop) -> posewire::Result<Survey> {
-    let mut survey = Survey::default();
+fn read(file: &mut TakeFile, stop: &Stop, verify: bool) -> posewire::Result<Survey> {
+    let rate = file.reader.subject().rate.unwrap_or(0.0);
+    let mut survey = Survey {
+        verifier: verify.then(|| Verifier::new(rate)),
+        ..Survey::default()
+    };
     let mut shown = Instant::now();
     while !stop.is_stopped() {
         let Some(frame) = file.next_frame()? else {
@@ -52,6 +58,9 @@ fn read(file: &mut TakeFile, stop: &Stop) -> posewire::Result<Survey> {
             show_progress(file.progress(survey.frames));
             shown = Instant::now();
         }
+    }
+    if let Some(verifier) = &mut survey.verifier {
+        verifier.finish();
     }
     Ok(survey)
 }

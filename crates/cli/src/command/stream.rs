@@ -30,7 +30,7 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
     refuse::endless(&from, &targets)?;
     let plan = arguments.faults.as_deref().map(str::parse::<FaultPlan>).transpose()?;
     refuse::capture(&arguments.playback.capture, &from)?;
-    let source = Source::open(&from, &playback_options(&arguments.playback))?;
+    let source = Source::open(&from, &playback_options(&arguments.playback, &targets))?;
     if source.is_live() {
         refuse::playback(&arguments.playback)?;
         context::stop_after(&stop, arguments.playback.duration);
@@ -59,7 +59,8 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
     let outcome = session.wait();
     end_progress();
     let progress = progress.read();
-    let unsent = teller.kernel_dropped() + outcome.as_ref().map_or(0, |outcome| outcome.dropped);
+    peers.tell(&progress);
+    let unsent = teller.lost_here() + outcome.as_ref().map_or(0, |outcome| outcome.dropped);
     if arguments.json {
         json::print(&json::StreamRecord::new(&progress, unsent, plan.as_ref()))?;
     } else {
@@ -69,13 +70,15 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
     Ok(End::with_lost(progress.lost() + unsent))
 }
 
-fn playback_options(arguments: &Playback) -> PlaybackOptions {
+fn playback_options(arguments: &Playback, targets: &[Endpoint]) -> PlaybackOptions {
     PlaybackOptions {
         rate_hz: arguments.rate,
         speed: arguments.speed,
         looped: arguments.looped,
         duration: arguments.duration,
         salvage: arguments.salvage,
+        // NatNet has no place for any of it.
+        computes: targets.iter().any(|target| !matches!(target, Endpoint::NatNet(_))),
         only: arguments.capture.only.clone(),
         from: arguments.capture.from.unwrap_or_default(),
         until: arguments.capture.until,

@@ -25,6 +25,7 @@ pub(crate) struct ServerRecord<'a> {
     latency_ms: LatencyRecord,
     subjects: Vec<TrackingRecord<'a>>,
     left_out: u64,
+    refused: u64,
     elapsed_s: f64,
     ended: bool,
 }
@@ -88,6 +89,7 @@ impl<'a> ServerRecord<'a> {
             latency_ms: server.latencies.into(),
             subjects: all.subjects.iter().filter_map(tracking).collect(),
             left_out: server.left_out,
+            refused: server.refused,
             elapsed_s: rounded(all.elapsed.as_secs_f64()),
             ended: all.ended,
         })

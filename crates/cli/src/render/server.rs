@@ -162,6 +162,7 @@ fn subject_row(text: &mut String, of: &SubjectStatistics) {
     _ = write!(text, "  {:>3} {name:<24} {:<10}", subject.id, kind(subject));
     match of.tracking {
         None => {}
+        Some(tracking) if tracking.awaited => text.push_str(" WAIT"),
         Some(tracking) if tracking.tracked == 0 => text.push_str(" LOST"),
         Some(tracking) => _ = write!(text, " {} of {} tracked", tracking.tracked, tracking.segments),
     }
@@ -185,3 +186,40 @@ fn milliseconds(duration: Duration) -> f64 {
 
 const FRAMES_HEAD: &str = "       Hz    frames  missed   dup  late reset malformed   p99 ms   max ms\n";
 const MOST_SUBJECTS: usize = 24;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use posewire::stats::Tracking;
+    use posewire_motion::{Segment, SegmentKind, Skeleton};
+    use std::sync::Arc;
+
+    #[test]
+    fn what_no_frame_has_held_yet_is_awaited_and_not_lost() {
+        let skeleton = Skeleton {
+            segments: vec![Segment::new("Wand", SegmentKind::Body)],
+            ..Skeleton::default()
+        };
+        let subject = Arc::new(Subject::new("Wand", skeleton));
+        let row = |awaited| {
+            let tracking = Tracking {
+                segments: 1,
+                tracked: 0,
+                frames_untracked: 0,
+                awaited,
+            };
+            let of = SubjectStatistics {
+                subject: Arc::clone(&subject),
+                timecode: None,
+                streams: Vec::new(),
+                samples: None,
+                tracking: Some(tracking),
+            };
+            let mut text = String::new();
+            subject_row(&mut text, &of);
+            text
+        };
+        assert!(row(true).ends_with("rigid body WAIT\n"), "{}", row(true));
+        assert!(row(false).ends_with("rigid body LOST\n"), "{}", row(false));
+    }
+}

@@ -264,10 +264,11 @@ fn a_natnet_version_is_guessed_or_given() {
     assert_eq!(guessed["protocol"], "natnet");
     let header = serde_json::json!({"message": 7, "name": "FRAMEOFDATA", "payload_size": frame.len() - 4});
     assert_eq!(guessed["header"], header);
-    let bitstream = serde_json::json!({"version": "4.0", "given": false, "alike": ["3.0"], "otherwise": []});
+    let bitstream =
+        serde_json::json!({"version": "4.0", "given": false, "by": "bytes", "alike": ["3.0"], "otherwise": []});
     assert_eq!(guessed["bitstream"], bitstream);
     let given = object(&explain(&["--version", "3.1", "-", "--json"], &frame));
-    let bitstream = serde_json::json!({"version": "3.1", "given": true, "alike": [], "otherwise": []});
+    let bitstream = serde_json::json!({"version": "3.1", "given": true, "by": "version", "alike": [], "otherwise": []});
     assert_eq!(given["bitstream"], bitstream);
     assert_eq!(given["fields"], guessed["fields"]);
 
@@ -279,6 +280,16 @@ fn a_natnet_version_is_guessed_or_given() {
         text.contains("\nFRAMEOFDATA, bitstream 3.0, 602 bytes at byte 0\n\noffset "),
         "{text}"
     );
+}
+
+#[test]
+fn a_version_that_there_is_not_is_refused() {
+    let frame = natnet("frame_3_0");
+    for version in ["0.0", "1.3", "4.6", "9.9", "3.1.2", "3"] {
+        let refused = explain(&["-", "--version", version], &frame);
+        assert_eq!(refused.code, Some(2), "{version}");
+        assert!(refused.err.contains("a version from 1.4 to 4.5"), "{}", refused.err);
+    }
 }
 
 #[test]
@@ -342,7 +353,7 @@ fn the_wrong_protocol_is_named_with_the_way_out() {
             &["--version", "three"],
             &frame,
             2,
-            "error: invalid value 'three' for '--version <M.m>': expected a version such as \"3.1\", found \"three\"",
+            "error: invalid value 'three' for '--version <M.m>': expected a version from 1.4 to 4.5",
         ),
     ] {
         let ended = explain(&[&["-"], arguments].concat(), input);

@@ -62,6 +62,19 @@ fn object(ended: &Ended) -> Value {
 }
 
 #[test]
+fn a_take_in_utf_16_is_told_as_one_in_utf_8() {
+    let mut said = ["UTF-8", "UTF-16"].map(|encoding| {
+        let text = take().replace("UTF-8", encoding);
+        let wide = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+        let bytes = if encoding == "UTF-16" { wide } else { text.into_bytes() };
+        object(&inspect(folder("take.mvnx", bytes).path(), &["take.mvnx", "--json"]))
+    });
+    assert_ne!(said[0]["bytes"], said[1]["bytes"]);
+    said[1]["bytes"] = said[0]["bytes"].clone();
+    assert_eq!(said[0], said[1]);
+}
+
+#[test]
 fn a_take_is_told_on_one_page() {
     let folder = folder("take.mvnx", take());
     let expected = "\
@@ -225,6 +238,182 @@ fn what_is_no_take_is_named_with_the_way_out() {
         assert_eq!((ended.code, ended.out.as_str()), (Some(code), ""), "{file}");
         assert!(ended.err.starts_with(error), "{}", ended.err);
         assert!(ended.err.contains("\nhelp: "), "{}", ended.err);
+    }
+}
+
+/// Six samples at 100 Hz of a hip that bends by 0.2 rad a sample, with what follows from it.
+fn consistent_take() -> String {
+    let mut text = r#"<mvnx version="4">
+<subject label="Ada" frameRate="100" segmentCount="2">
+<segments>
+<segment label="Pelvis" id="1"><points><point label="jRightHip"><pos_b>0 0 0</pos_b></point></points></segment>
+<segment label="RightUpperLeg" id="2"><points><point label="jRightHip"><pos_b>0 0 0</pos_b></point></points></segment>
+</segments>
+<joints><joint label="jRightHip"><connector1>Pelvis/jRightHip</connector1><connector2>RightUpperLeg/jRightHip</connector2></joint></joints>
+<frames segmentCount="2" sensorCount="0" jointCount="1">
+"#
+    .to_owned();
+    for sample in 0..6 {
+        let (time, ms, lifted) = (sample * 10, 3_600_000 + sample * 10, 0.2 * f64::from(sample));
+        let (w, y, degrees) = ((lifted / 2.0).cos(), -(lifted / 2.0).sin(), lifted.to_degrees());
+        writeln!(
+            text,
+            r#"<frame time="{time}" index="{sample}" ms="{ms}" type="normal">
+<orientation>1 0 0 0 {w:.6} 0 {y:.6} 0</orientation><position>{x:.6} 0 1 {x:.6} 0 1</position>
+<velocity>2 0 0 2 0 0</velocity><angularVelocity>0 0 0 0 -20 0</angularVelocity>
+<jointAngle>0 0 {degrees:.6}</jointAngle></frame>"#,
+            x = 0.02 * f64::from(sample),
+        )
+        .unwrap();
+    }
+    text + "</frames></subject></mvnx>\n"
+}
+
+/// The part of the page that `--verify` adds.
+fn verification(take: impl AsRef<[u8]>) -> String {
+    let folder = folder("take.mvnx", take);
+    let ended = inspect(folder.path(), &["take.mvnx", "--verify"]);
+    assert_eq!((ended.code, ended.err.as_str()), (Some(0), ""));
+    assert_fits(&ended.out);
+    let place = ended.out.find("\nverification\n").unwrap();
+    ended.out[place..].to_owned()
+}
+
+#[test]
+fn a_take_that_agrees_with_itself_is_ok() {
+    let expected = "
+verification
+  ok              joint angles ZXY: 0.0000 deg (limit 0.003)
+  not there       joint angles XZY
+  not there       ergonomic angles ZXY
+  not there       ergonomic angles XZY
+  ok              quaternion lengths off 1: 0.0000006 (limit 0.00001)
+  ok              connector gaps: 0.0 mm (limit 50)
+  ok              missing samples: 0 (limit 0)
+  ok              out of order: 0 (limit 0)
+  ok              untracked segments: 0 (limit 0)
+  ok              clock jitter (p99): 0.0 ms (limit 5.0)
+  not there       clock drift: the take is too short to tell
+  ok              velocities: 0.000 m/s (limit 1.000)
+  ok              angular velocities: 0.000 rad/s (limit 7.071)";
+    let found = verification(consistent_take());
+    let (checks, angles) = found.split_once("\n\n").unwrap();
+    // Of what is hardly off, the last digit of a float decides which sample is worst.
+    let lines = checks.lines().filter(|line| !line.starts_with("     "));
+    let limit = |line: &str| line.rfind(')').map_or(line.len(), |end| end + 1);
+    let lines: Vec<_> = lines.map(|line| &line[..limit(line)]).collect();
+    assert_eq!(lines.join("\n"), expected);
+    let titles = [
+        "largest difference of the recomputed angles, degrees",
+        "ZXY    sample        XZY    sample",
+        "  jRightHip                    0.0000  ",
+    ];
+    assert!(
+        angles.lines().zip(titles).all(|(line, title)| line.contains(title)),
+        "{angles}"
+    );
+}
+
+#[test]
+fn what_is_wrong_with_a_take_is_told_with_its_place() {
+    let take = consistent_take()
+        .replace("<jointAngle>0 0 34.3", "<jointAngle>0 0 36.3")
+        .replace("<position>0.040000 0 1 0.04", "<position>0.040000 0 1 0.14")
+        .replace("<orientation>1 0 0 0 0.877583", "<orientation>1.1 0 0 0 0.877583")
+        .replace("ms=\"3600030\"", "ms=\"3600080\"")
+        .replace("index=\"5\"", "index=\"9\"")
+        .replace("0 -20 0<", "0 2 0<");
+    let found = verification(take);
+    for line in [
+        "  look at this    joint angles ZXY: 2.0000 deg (limit 0.003), jRightHip, sample 3\n",
+        "  look at this    quaternion lengths off 1: 0.1000000 (limit 0.00001), Pelvis, sample 9\n",
+        "  look at this    connector gaps: 100.0 mm (limit 50), jRightHip, sample 2\n",
+        "  look at this    missing samples: 4 (limit 0), sample 5\n",
+        "  look at this    clock jitter (p99): ",
+        "  look at this    velocities: ",
+        "  look at this    angular velocities: ",
+    ] {
+        assert!(found.contains(line), "{line}\nis not in\n{found}");
+    }
+}
+
+#[test]
+fn close_to_gimbal_lock_angles_are_counted() {
+    // 89 degrees about X: the middle angle of ZXY.
+    let take = take().replace(
+        "<orientation>1 0 0 0 1 0 0 0</orientation><position>0 0 1 0 -0.107",
+        "<orientation>1 0 0 0 0.713250 0.700909 0 0</orientation><position>0 0 1 0 -0.107",
+    );
+    let folder = folder("take.mvnx", take);
+    let take = object(&inspect(folder.path(), &["take.mvnx", "--verify", "--json"]));
+    let angle = &take["verification"]["joint_angles"][0];
+    assert_eq!((&angle["name"], &angle["xzy"]), (&json!("jRightHip"), &json!(null)));
+    assert_eq!(
+        (&angle["zxy"]["near_pole"], &angle["zxy"]["sample"]),
+        (&json!(1), &json!(3))
+    );
+    assert!((angle["zxy"]["difference_deg"].as_f64().unwrap() - 3.0).abs() < 1e-9);
+    let checks = take["verification"]["checks"].as_array().unwrap();
+    assert_eq!(checks[0]["verdict"], "look at this");
+    assert_eq!(checks[0]["note"], "1 close to gimbal lock not compared");
+}
+
+#[test]
+fn a_verification_has_its_documented_fields() {
+    let folder = folder("take.mvnx", take());
+    let take = object(&inspect(folder.path(), &["take.mvnx", "--verify", "--json"]));
+    assert_documented(&take, "take", &["damage"]);
+    let text = include_str!("../../../../docs/json.md");
+    for (table, object) in [
+        ("| field of `verification` |", &take["verification"]),
+        ("| field of a member of `checks` |", &take["verification"]["checks"][0]),
+    ] {
+        let (_, rows) = text.split_once(table).unwrap();
+        let (rows, _) = rows.split_once("\n\n").unwrap();
+        let names = rows
+            .lines()
+            .skip(2)
+            .flat_map(|row| row.split('|').nth(1).unwrap().split('`').skip(1).step_by(2));
+        let mut documented: Vec<_> = names.collect();
+        let mut found: Vec<_> = object.as_object().unwrap().keys().map(String::as_str).collect();
+        documented.sort_unstable();
+        found.sort_unstable();
+        assert_eq!(found, documented);
+    }
+    assert_eq!(
+        object(&inspect(folder.path(), &["take.mvnx", "--json"]))["verification"],
+        json!(null)
+    );
+}
+
+#[test]
+fn reference_takes_agree_with_themselves() {
+    for (name, joints, ergonomic) in [("mvnx/test_mocap.mvnx", 22, 4), ("mvnx/meri-020.mvnx", 22, 0)] {
+        let Some(path) = reference(name) else { return };
+        let arguments = [path.to_str().unwrap(), "--verify", "--json"];
+        let verification = &object(&inspect(Path::new("."), &arguments))["verification"];
+        for check in verification["checks"].as_array().unwrap() {
+            assert_ne!(check["verdict"], "look at this", "{name}: {check}");
+        }
+        let compared = |angles: &Value, sequence: &str| {
+            let all = angles.as_array().unwrap().iter();
+            let compared = all.filter(|angle| {
+                angle[sequence]["difference_deg"]
+                    .as_f64()
+                    .is_some_and(|off| off < 0.003)
+            });
+            assert!(
+                angles
+                    .as_array()
+                    .unwrap()
+                    .iter()
+                    .all(|angle| angle[sequence]["near_pole"] == json!(0) || angle[sequence].is_null())
+            );
+            compared.count()
+        };
+        assert_eq!(compared(&verification["joint_angles"], "zxy"), joints);
+        assert_eq!(compared(&verification["joint_angles"], "xzy"), joints);
+        assert_eq!(compared(&verification["ergonomic_angles"], "zxy"), ergonomic);
     }
 }
 

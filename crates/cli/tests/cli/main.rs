@@ -1,5 +1,7 @@
 //! Runs the program as its users do.
 
+mod convert;
+mod convert_arguments;
 mod demo;
 mod explain;
 mod faults;

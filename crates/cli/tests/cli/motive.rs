@@ -6,7 +6,7 @@ use posewire_natnet::model::{BodyMarkerDescription, Description, Model, RigidBod
 use posewire_natnet::server::{Server, ServerOptions};
 use posewire_natnet::{Output, Socket, Version};
 use std::net::UdpSocket;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// A server on a port of the system's choice, with a skeleton of two bones and two rigid bodies.
 pub(crate) struct Motive {
@@ -52,6 +52,19 @@ impl Motive {
         }
         self.server.handle_timeout(self.clock.steady());
         self.flush();
+    }
+
+    /// Answers and sends fifty frames a second for a while.
+    pub(crate) fn play(&mut self, time: Duration) {
+        let mut due = Instant::now();
+        let end = due + time;
+        while due < end {
+            self.answer();
+            if Instant::now() >= due {
+                self.send(true);
+                due += Duration::from_millis(20);
+            }
+        }
     }
 
     /// Sends the next frame: of the skeleton a bone is lost, of the bodies the second; the first has a marker, and there is a

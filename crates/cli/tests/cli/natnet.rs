@@ -1,10 +1,12 @@
 //! `posewire stream` to NatNet clients, and from a NatNet server to MXTP.
 
-use crate::program::{Monitor, Relay, assert_documented, objects};
+use crate::program::{Monitor, Relay, assert_documented, objects, posewire};
 use posewire_natnet::{MessageId, Packet};
 use std::io::{BufRead, BufReader, Read};
 use std::net::{Ipv4Addr, UdpSocket};
+use std::path::Path;
 use std::process::{Child, ChildStderr, Command, Stdio};
+use std::time::Duration;
 
 /// `posewire stream` to NatNet clients, waiting for one.
 struct Server {
@@ -67,6 +69,7 @@ fn a_stream_begins_when_a_client_connects_and_tells_of_it() {
     let mut server = Server::start("synthetic:walk?rate=60", &["--duration", "0.5", "--json"]);
     server.read_until("waiting for somebody to connect");
     let client = UdpSocket::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
+    client.set_read_timeout(Some(Duration::from_secs(30))).unwrap();
     client.send_to(&[0, 0, 0, 0], server.place()).unwrap();
     let mut buffer = vec![0; 65_535];
     let mut kinds = Vec::new();
@@ -101,11 +104,31 @@ fn a_stream_begins_when_a_client_connects_and_tells_of_it() {
 }
 
 #[test]
+fn a_silent_client_is_dropped_after_the_time_that_was_set() {
+    let mut server = Server::start("synthetic:walk?rate=60", &["--duration", "30", "--silence", "0.3"]);
+    let client = UdpSocket::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
+    client.set_read_timeout(Some(Duration::from_secs(30))).unwrap();
+    client.send_to(&[0, 0, 0, 0], server.place()).unwrap();
+    let mut buffer = vec![0; 65_535];
+    loop {
+        let length = client.recv(&mut buffer).unwrap();
+        if Packet::decode(&buffer[..length]).unwrap().id == MessageId::DISCONNECT_BY_TIMEOUT {
+            break;
+        }
+    }
+    server.child.kill().unwrap();
+    server.child.wait().unwrap();
+}
+
+#[test]
 fn a_skeleton_is_passed_on_from_natnet_to_mxtp() {
     let monitor = Monitor::start(&["mxtp://127.0.0.1:0", "--json", "--frames", "--count", "20"]);
     let mut server = Server::start("synthetic:walk?rate=60&props=1&fingers=true", &["--duration", "20"]);
     let source = format!("natnet://{}", server.place());
-    let bridge = Relay::start(&[&source, "--to", &monitor.endpoint, "--duration", "20"]);
+    let mut bridge = Relay::start(&[&source, "--to", &monitor.endpoint, "--duration", "20"]);
+    assert_eq!(bridge.types, "02,12,13,20,25", "no centre of mass comes over NatNet");
+    let told = bridge.read_until("left out");
+    assert!(told.contains("left out: datagram type 24 (centre of mass)"), "{told}");
     let frames = objects(&monitor.end().out, "frame");
     drop(bridge);
     server.child.kill().unwrap();
@@ -121,6 +144,21 @@ fn a_skeleton_is_passed_on_from_natnet_to_mxtp() {
         (0.7..1.2).contains(&height),
         "the pelvis is {height} m above the ground"
     );
+}
+
+#[test]
+fn a_type_that_natnet_cannot_give_is_refused_when_asked_for() {
+    let arguments = [
+        "stream",
+        "natnet://127.0.0.1:9",
+        "--to",
+        "mxtp://127.0.0.1:9",
+        "--types",
+        "02,24",
+    ];
+    let ended = posewire(Path::new("."), &arguments, b"");
+    assert_eq!(ended.code, Some(2));
+    assert!(ended.err.contains("cannot send type 24"), "{}", ended.err);
 }
 
 #[test]

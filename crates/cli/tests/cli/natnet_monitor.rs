@@ -5,6 +5,7 @@ use crate::program::{assert_documented, objects, posewire};
 use posewire_natnet::Version;
 use serde_json::Value;
 use std::path::Path;
+use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -146,6 +147,40 @@ fn a_table_says_what_is_lost_and_why_a_latency_is_unknown() {
     let ended = monitored(Version::new(2, 7), false, &["--plain", "--count", "40"]);
     let before = "host to here: unknown: frames have no times of it before NatNet 3.0";
     assert!(ended.out.contains(before), "{}", ended.out);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_monitor_that_was_suspended_reads_what_has_waited() {
+    let mut motive = Motive::open(Version::new(4, 1));
+    let mut child = Command::new(env!("CARGO_BIN_EXE_posewire"));
+    child.args(["monitor", "--json", &motive.endpoint()]);
+    let child = child.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let signal = |name: &str| {
+        let process = child.id().to_string();
+        assert!(Command::new("kill").args([name, &process]).status().unwrap().success());
+    };
+    motive.play(Duration::from_millis(1500));
+    signal("-STOP");
+    motive.play(Duration::from_millis(3500));
+    signal("-CONT");
+    motive.play(Duration::from_millis(1500));
+    signal("-INT");
+    let output = child.wait_with_output().unwrap();
+    let (out, err) = (
+        String::from_utf8(output.stdout).unwrap(),
+        String::from_utf8(output.stderr).unwrap(),
+    );
+    assert_eq!(output.status.code(), Some(0), "{err}");
+    assert!(!err.contains("lost"), "{err}");
+    let statistics = objects(&out, "statistics");
+    let frames = last(&statistics, &[("type", "frame".into()), ("ended", true.into())]);
+    assert_eq!((&frames["missing"], &frames["reset"]), (&0.into(), &0.into()));
+    assert!(frames["received"].as_u64().is_some_and(|count| count > 200), "{frames}");
+    let servers = objects(&out, "server");
+    let server = last(&servers, &[("ended", true.into())]);
+    let longest = server["latency_ms"]["host_to_here"]["max"].as_f64().unwrap();
+    assert!(longest < 250.0, "frames were not late, but read late: {server}");
 }
 
 #[test]

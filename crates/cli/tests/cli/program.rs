@@ -98,6 +98,8 @@ impl Monitor {
 /// `posewire stream`, passing on a live stream; it ends with the test.
 pub(crate) struct Relay {
     pub(crate) endpoint: String,
+    /// The datagram types that it announces.
+    pub(crate) types: String,
     child: Child,
     err: BufReader<ChildStderr>,
 }
@@ -116,8 +118,10 @@ impl Relay {
         let mut line = String::new();
         err.read_line(&mut line).unwrap();
         let endpoint = line.strip_prefix("streaming ").and_then(|rest| rest.split(',').next());
+        let types = line.split_once(", types ").map_or("", |(_, types)| types.trim());
         Self {
             endpoint: endpoint.unwrap_or_else(|| panic!("{line}")).to_owned(),
+            types: types.to_owned(),
             child,
             err,
         }

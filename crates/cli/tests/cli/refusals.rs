@@ -82,6 +82,28 @@ fn wrong_arguments_end_with_2() {
             "version",
         ),
         (
+            &["stream", walk, "--to", "natnet://127.0.0.1:0", "--split", "1400"],
+            "--split is for MXTP targets",
+            "leave --split out",
+        ),
+        (
+            &["stream", walk, "--to", "natnet://127.0.0.1:0", "--types", "all"],
+            "--types is for MXTP targets",
+            "leave --types out",
+        ),
+        (
+            &[
+                "stream",
+                walk,
+                "--to",
+                "natnet://127.0.0.1:0?mode=multicast",
+                "--silence",
+                "5",
+            ],
+            "--silence is for unicast NatNet targets",
+            "leave --silence out",
+        ),
+        (
             &["stream", walk, "--to", "other.mvnx"],
             "motion cannot be sent there",
             "--to mxtp://",

@@ -203,3 +203,37 @@ fn a_damaged_take_is_used_up_to_the_damage_when_asked() {
     monitor.interrupt();
     monitor.end();
 }
+
+#[test]
+fn nothing_is_computed_that_no_target_has_a_place_for() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("take.mvnx"), small_take(3)).unwrap();
+    let target = "natnet://127.0.0.1:0?data-port=0";
+    let ended = posewire(
+        folder.path(),
+        &["stream", "take.mvnx", "--no-wait", "--to", target],
+        b"",
+    );
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    assert!(ended.err.contains("sent 3 samples"), "{}", ended.err);
+    assert!(
+        !ended.err.contains("computed") && !ended.err.contains("left out"),
+        "{}",
+        ended.err
+    );
+}
+
+#[test]
+fn what_is_left_out_is_said_once_however_short_the_stream_and_many_the_targets() {
+    let target = "natnet://127.0.0.1:0?data-port=0";
+    let walk = "synthetic:walk?rate=60";
+    let targets = ["--to", target, "--to", target];
+    let arguments = ["stream", walk, "--no-wait", "--duration", "0.05"];
+    let ended = posewire(here(), &[&arguments[..], &targets].concat(), b"");
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    let said: Vec<_> = ended.err.lines().filter(|line| line.starts_with("left out")).collect();
+    let &[line] = said.as_slice() else {
+        panic!("{}", ended.err)
+    };
+    assert_eq!(line.matches("joint angles").count(), 1, "{line}");
+}

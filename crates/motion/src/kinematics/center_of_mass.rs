@@ -9,9 +9,10 @@ use glam::{DQuat, DVec3};
 /// segment inertia parameters", Journal of Biomechanics 29 (1996), table 4, the mean of women and men. That paper divides
 /// the body into 16 parts, this skeleton into 23 segments: the lower trunk is taken as pelvis and L5, the middle one as L3
 /// and T12, the upper one as T8 with the shoulders, the head with the neck, the foot with the toe. It is an estimate: nobody's
-/// mass is spread as the mean is, and in two takes MVN's own centre of mass is 23 to 25 mm lower.
+/// mass is spread as the mean is, and in two takes MVN's own centre of mass is 20 mm lower.
 ///
-/// Segments are found by their names; props and fingers weigh nothing. `None` when one of the segments is missing or
+/// Segments are found by their names; props and fingers weigh nothing. Head, hands and feet end at landmarks, of which
+/// those of a nominal adult serve where the skeleton has none. `None` when one of the segments is missing or
 /// not tracked.
 pub fn center_of_mass(skeleton: &Skeleton, position: &[Option<DVec3>], orientation: &[Option<DQuat>]) -> Option<DVec3> {
     let body = Body {
@@ -30,17 +31,19 @@ pub fn center_of_mass(skeleton: &Skeleton, position: &[Option<DVec3>], orientati
 struct Part {
     /// Its share of the body's mass, per cent.
     mass: f64,
-    /// The place of the body segment at whose origin it begins.
-    from: usize,
-    center: Center,
+    from: End,
+    to: End,
+    /// Where its centre of mass is on the way from one end to the other.
+    share: f64,
 }
 
-/// Where a part's centre of mass is.
-enum Center {
-    /// This share of the way to the origin of the body segment at that place.
-    Toward(usize, f64),
-    /// At this offset in the axes of the segment where it begins, for a nominal adult, m.
-    Offset([f64; 3]),
+/// An end of a part.
+#[derive(Clone, Copy)]
+enum End {
+    /// The origin of the body segment at this place of the standard skeleton.
+    Origin(usize),
+    /// A landmark on that segment: its name, and its offset on a nominal adult, m, for skeletons that do not have it.
+    Landmark(usize, &'static str, [f64; 3]),
 }
 
 struct Body<'a> {
@@ -51,18 +54,20 @@ struct Body<'a> {
 
 impl Body<'_> {
     fn center(&self, part: &Part) -> Option<DVec3> {
-        let from = self.place(part.from)?;
-        let origin = self.position.get(from).copied().flatten()?;
-        match part.center {
-            Center::Toward(to, share) => {
-                let end = self.position.get(self.place(to)?).copied().flatten()?;
-                Some(origin.lerp(end, share))
-            }
-            Center::Offset(offset) => {
-                let turn = self.orientation.get(from).copied().flatten()?;
-                Some(origin + turn * DVec3::from_array(offset))
-            }
-        }
+        Some(self.end(part.from)?.lerp(self.end(part.to)?, part.share))
+    }
+
+    fn end(&self, end: End) -> Option<DVec3> {
+        let (End::Origin(standard) | End::Landmark(standard, ..)) = end;
+        let place = self.place(standard)?;
+        let origin = self.position.get(place).copied().flatten()?;
+        let End::Landmark(_, name, nominal) = end else {
+            return Some(origin);
+        };
+        let points = &self.skeleton.segments.get(place)?.points;
+        let point = points.iter().find(|point| point.name == name);
+        let offset = point.map_or(DVec3::from_array(nominal), |point| point.offset);
+        Some(origin + self.orientation.get(place).copied().flatten()? * offset)
     }
 
     /// Where this skeleton keeps the body segment at a place of the standard one: mostly at the same place.
@@ -76,39 +81,39 @@ impl Body<'_> {
     }
 }
 
-const fn toward(mass: f64, from: usize, to: usize, share: f64) -> Part {
-    Part {
-        mass,
-        from,
-        center: Center::Toward(to, share),
-    }
+const fn limb(mass: f64, from: usize, to: usize, share: f64) -> Part {
+    part(mass, End::Origin(from), End::Origin(to), share)
 }
 
-const fn offset(mass: f64, from: usize, offset: [f64; 3]) -> Part {
-    Part {
-        mass,
-        from,
-        center: Center::Offset(offset),
-    }
+const fn part(mass: f64, from: End, to: End, share: f64) -> Part {
+    Part { mass, from, to, share }
 }
+
+const TOP_OF_HEAD: End = End::Landmark(6, "pTopOfHead", [0.01, 0.0, 0.23]);
+const RIGHT_FINGERTIP: End = End::Landmark(10, "pRightTopOfHand", [0.0, -0.19, 0.0]);
+const LEFT_FINGERTIP: End = End::Landmark(14, "pLeftTopOfHand", [0.0, 0.19, 0.0]);
+const RIGHT_HEEL: End = End::Landmark(17, "pRightHeelFoot", [-0.05, 0.0, -0.08]);
+const LEFT_HEEL: End = End::Landmark(21, "pLeftHeelFoot", [-0.05, 0.0, -0.08]);
+const RIGHT_TOE: End = End::Landmark(18, "pRightToe", [0.07, 0.0, -0.01]);
+const LEFT_TOE: End = End::Landmark(22, "pLeftToe", [0.07, 0.0, -0.01]);
 
 const PARTS: [Part; 16] = [
-    toward(11.82, 0, 2, 0.448),
-    toward(15.49, 2, 4, 0.549),
-    toward(15.705, 4, 5, 0.494),
-    offset(6.81, 6, [0.01, 0.0, 0.1]),
-    toward(2.63, 8, 9, 0.576),
-    toward(1.5, 9, 10, 0.457),
-    offset(0.585, 10, [0.0, -0.066, 0.0]),
-    toward(2.63, 12, 13, 0.576),
-    toward(1.5, 13, 14, 0.457),
-    offset(0.585, 14, [0.0, 0.066, 0.0]),
-    toward(14.47, 15, 16, 0.385),
-    toward(4.57, 16, 17, 0.437),
-    offset(1.33, 17, [0.06, 0.0, -0.055]),
-    toward(14.47, 19, 20, 0.385),
-    toward(4.57, 20, 21, 0.437),
-    offset(1.33, 21, [0.06, 0.0, -0.055]),
+    limb(11.82, 0, 2, 0.448),
+    limb(15.49, 2, 4, 0.549),
+    limb(15.705, 4, 5, 0.494),
+    part(6.81, End::Origin(5), TOP_OF_HEAD, 0.508),
+    limb(2.63, 8, 9, 0.576),
+    limb(1.5, 9, 10, 0.457),
+    part(0.585, End::Origin(10), RIGHT_FINGERTIP, 0.353),
+    limb(2.63, 12, 13, 0.576),
+    limb(1.5, 13, 14, 0.457),
+    part(0.585, End::Origin(14), LEFT_FINGERTIP, 0.353),
+    limb(14.47, 15, 16, 0.385),
+    limb(4.57, 16, 17, 0.437),
+    part(1.33, RIGHT_HEEL, RIGHT_TOE, 0.421),
+    limb(14.47, 19, 20, 0.385),
+    limb(4.57, 20, 21, 0.437),
+    part(1.33, LEFT_HEEL, LEFT_TOE, 0.421),
 ];
 
 #[cfg(test)]
@@ -127,6 +132,35 @@ mod tests {
     fn the_shares_make_up_the_body() {
         let sum: f64 = PARTS.iter().map(|part| part.mass).sum();
         assert!((sum - 100.0).abs() < 0.01, "{sum}");
+    }
+
+    #[test]
+    fn landmarks_are_those_of_a_nominal_adult() {
+        for end in PARTS.iter().flat_map(|part| [part.from, part.to]) {
+            if let End::Landmark(place, name, nominal) = end {
+                let points = standard::body_points(place);
+                let point = points.iter().find(|point| point.name == name).unwrap();
+                assert_eq!(point.offset, DVec3::from_array(nominal), "{name}");
+            }
+        }
+    }
+
+    #[test]
+    fn landmarks_of_the_skeleton_count() {
+        let mut skeleton = Skeleton::standard(0, false);
+        let center = |skeleton: &Skeleton| center_of_mass(skeleton, &t_pose(skeleton), &upright(skeleton)).unwrap();
+        let nominal = center(&skeleton);
+        let top = skeleton.segments[6]
+            .points
+            .iter_mut()
+            .find(|point| point.name == "pTopOfHead");
+        top.unwrap().offset.z += 0.1;
+        let taller = center(&skeleton) - nominal;
+        assert!((taller.z - 0.1 * 0.508 * 0.0681).abs() < 1e-6, "{taller}");
+        for segment in &mut skeleton.segments {
+            segment.points.clear();
+        }
+        assert_eq!(center(&skeleton), nominal);
     }
 
     #[test]

@@ -1,7 +1,24 @@
 //! Forward kinematics: where segments are, from how they are turned.
 
+use super::orientations;
 use crate::{Segment, Skeleton};
 use glam::{DQuat, DVec3};
+
+/// Poses a body whose first segment is at `root` by [rotations of its segments against their
+/// parents](super::local_rotations), on the links of its null pose.
+///
+/// `orientation` gets every segment's rotation to the world's axes and `position` its origin, m, as [`orientations`] and
+/// [`segment_positions`] have them: this is what a BVH player shows.
+pub fn forward_kinematics(
+    skeleton: &Skeleton,
+    root: DVec3,
+    local: &[Option<DQuat>],
+    orientation: &mut Vec<Option<DQuat>>,
+    position: &mut Vec<Option<DVec3>>,
+) {
+    orientations(skeleton, local, orientation);
+    segment_positions(skeleton, root, orientation, position);
+}
 
 /// Where every segment's origin is, m, for a body that is turned so and whose first segment is at `root`.
 ///
@@ -51,6 +68,7 @@ fn child_position(
 
 #[cfg(test)]
 mod tests {
+    use super::super::local_rotations;
     use super::*;
     use std::f64::consts::FRAC_PI_2;
 
@@ -88,6 +106,26 @@ mod tests {
         let found = positions(&skeleton, &orientation);
         assert!(found[9].is_some());
         assert_eq!(found.iter().filter(|position| position.is_none()).count(), 1);
+    }
+
+    #[test]
+    fn a_body_posed_by_its_local_rotations_keeps_its_pose() {
+        let skeleton = Skeleton::standard(1, true);
+        let turn = |place| Some(DQuat::from_scaled_axis(DVec3::new(0.1, -0.05, 0.2) * f64::from(place)));
+        let given: Vec<_> = (0..64).map(turn).collect();
+        let (mut local, mut orientation, mut position) = (Vec::new(), Vec::new(), Vec::new());
+        local_rotations(&skeleton, &given, &mut local);
+        forward_kinematics(
+            &skeleton,
+            DVec3::new(0.0, 0.0, 0.93),
+            &local,
+            &mut orientation,
+            &mut position,
+        );
+        for (place, expected) in positions(&skeleton, &given).iter().enumerate() {
+            assert!((orientation[place].unwrap() - given[place].unwrap()).length() < 1e-12);
+            assert!((position[place].unwrap() - expected.unwrap()).length() < 1e-12);
+        }
     }
 
     #[test]

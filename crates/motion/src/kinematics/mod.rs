@@ -1,4 +1,5 @@
-//! What follows from poses: joint angles, velocities, the centre of mass, gaps at joints.
+//! What follows from poses: joint angles, rotations of segments against their parents, positions, velocities, an estimate of
+//! the centre of mass, gaps at joints, samples at another rate.
 //!
 //! Everything here works on the canonical space and leaves unknown what does not follow from what is known.
 //!
@@ -20,18 +21,29 @@
 //! ```
 
 mod center_of_mass;
+pub mod check;
 mod complete;
+mod continuity;
 mod differences;
 mod ergonomic;
 mod forward;
 mod gaps;
 mod joint_angles;
+mod largest;
+mod local;
+mod resample;
 mod sensors;
+mod whole_take;
 
 pub use center_of_mass::center_of_mass;
 pub use complete::complete;
+pub use continuity::ContinuousSigns;
 pub use differences::Differences;
 pub use ergonomic::AllErgonomicAngles;
-pub use forward::segment_positions;
+pub use forward::{forward_kinematics, segment_positions};
 pub use gaps::{LargestGaps, joint_gaps};
 pub use joint_angles::{ergonomic_angles, joint_angles};
+pub use largest::Largest;
+pub use local::{local_poses, local_rotations, orientations};
+pub use resample::Resampler;
+pub use whole_take::{completed, continuous, dropouts, resampled};

@@ -8,7 +8,7 @@ use posewire_mvnx::Reader;
 use std::path::Path;
 
 /// The text of a reference take.
-fn reference(name: &str) -> Option<String> {
+pub(crate) fn reference(name: &str) -> Option<String> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("../../../shared/data/mvnx")
         .join(name);

@@ -48,6 +48,8 @@ pub(super) struct ServerClock {
     frequency: u64,
     asked: VecDeque<Stamp>,
     echoes: VecDeque<Echo>,
+    /// Whether the connection was lost since the last echo, and the server may have begun anew.
+    doubted: bool,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -64,6 +66,20 @@ impl ServerClock {
             frequency,
             ..Self::default()
         }
+    }
+
+    /// The connection is lost. What was known of the clock counts again when an echo agrees with it.
+    pub(super) fn doubt(&mut self) {
+        self.asked.clear();
+        self.doubted = true;
+    }
+
+    /// The clock of a server that has answered again, which now says that it has this frequency.
+    pub(super) fn resume(&mut self, frequency: u64) {
+        if frequency != self.frequency {
+            *self = Self::new(frequency);
+        }
+        self.doubt();
     }
 
     /// Remembers a question, and gives the ticks that go with it.
@@ -96,6 +112,10 @@ impl ServerClock {
 
     /// The best that is known at `now`.
     pub(super) fn estimate(&self, now: Stamp) -> Option<ClockEstimate> {
+        self.best(now).filter(|_| !self.doubted)
+    }
+
+    fn best(&self, now: Stamp) -> Option<ClockEstimate> {
         let estimates = self.echoes.iter().map(|echo| echo.estimate(now, self.frequency));
         estimates.min_by_key(|estimate| estimate.uncertainty)
     }
@@ -103,7 +123,7 @@ impl ServerClock {
     /// An echo that contradicts the ones before is from a clock that was set, or began anew.
     fn remember(&mut self, echo: Echo) {
         let new = echo.estimate(echo.received, self.frequency);
-        let agrees = self.estimate(echo.received).is_none_or(|old| agree(&old, &new));
+        let agrees = self.best(echo.received).is_none_or(|old| agree(&old, &new));
         if !agrees {
             self.echoes.clear();
         }
@@ -113,6 +133,7 @@ impl ServerClock {
             self.echoes.pop_front();
         }
         self.echoes.push_back(echo);
+        self.doubted = false;
     }
 }
 
@@ -221,6 +242,19 @@ mod tests {
         };
         let estimate = clock.answer(Stamp(6010 * MILLISECOND), response).unwrap();
         assert_eq!((estimate.ticks, estimate.at), (7, Stamp(6005 * MILLISECOND)));
+    }
+
+    #[test]
+    fn a_good_echo_outlives_a_lost_connection_and_a_slow_answer_after_it() {
+        let mut clock = ServerClock::new(10_000_000);
+        let good = echo(&mut clock, 1000 * MILLISECOND, MILLISECOND, MILLISECOND).unwrap();
+        clock.doubt();
+        assert_eq!(clock.estimate(Stamp(2000 * MILLISECOND)), None);
+        clock.resume(10_000_000);
+        let slow = echo(&mut clock, 5000 * MILLISECOND, 900 * MILLISECOND, 20 * MILLISECOND).unwrap();
+        assert_eq!((slow.at, slow.round_trip), (good.at, good.round_trip));
+        clock.resume(1_000_000);
+        assert_eq!(clock.estimate(Stamp(6000 * MILLISECOND)), None);
     }
 
     #[test]

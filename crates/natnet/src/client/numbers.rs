@@ -1,5 +1,9 @@
 //! What the numbers of frames say about those that did not come.
 
+use std::time::Duration;
+
+use posewire_motion::Stamp;
+
 use crate::frame::Frame;
 
 /// What a client counts about frames.
@@ -21,6 +25,8 @@ pub struct FrameCounts {
     pub malformed: u64,
     /// Frames ignored because no server had said yet which version they are.
     pub early: u64,
+    /// Frames ignored because the connection to the server that sends them was lost, and it has not answered again yet.
+    pub refused: u64,
     /// Datagrams ignored because they are from somewhere else than the server.
     pub foreign: u64,
 }
@@ -44,16 +50,31 @@ pub(super) struct FrameNumbers {
     newest: Option<i32>,
     seen: u64,
     transmitted: Option<u64>,
+    /// When the newest came.
+    at: Stamp,
+    /// Whether the next frame comes after a pause, in which the server may have begun anew.
+    paused: bool,
 }
 
 impl FrameNumbers {
-    /// Counts a frame and says how it follows those before.
-    pub(super) fn note(&mut self, frame: &Frame, counts: &mut FrameCounts) -> FrameOrder {
+    /// Whether there has been a frame.
+    pub(super) const fn have_begun(&self) -> bool {
+        self.newest.is_some()
+    }
+
+    /// The next frame comes after a pause: what it leaves out is missing, but what goes back begins anew.
+    pub(super) const fn pause(&mut self) {
+        self.paused = true;
+    }
+
+    /// Counts a frame that came at `now` and says how it follows those before.
+    pub(super) fn note(&mut self, now: Stamp, frame: &Frame, counts: &mut FrameCounts) -> FrameOrder {
         let transmitted = frame.host_stamps.map(|stamps| stamps.transmit);
-        let sent_later = transmitted > self.transmitted;
+        let sent_later = transmitted > self.transmitted || std::mem::take(&mut self.paused);
+        let passed = now.since(std::mem::replace(&mut self.at, now));
         self.transmitted = self.transmitted.max(transmitted);
         counts.received += 1;
-        let order = self.place(frame.number, sent_later, counts);
+        let order = self.place(frame.number, sent_later, largest_gap(passed), counts);
         match order {
             FrameOrder::Next => {}
             FrameOrder::Repeated => counts.repeated += 1,
@@ -72,7 +93,7 @@ impl FrameNumbers {
         *self = Self::default();
     }
 
-    fn place(&mut self, number: i32, sent_later: bool, counts: &mut FrameCounts) -> FrameOrder {
+    fn place(&mut self, number: i32, sent_later: bool, largest_gap: i32, counts: &mut FrameCounts) -> FrameOrder {
         let Some(newest) = self.newest else {
             self.begin(number);
             return FrameOrder::Next;
@@ -80,7 +101,7 @@ impl FrameNumbers {
         let step = number.wrapping_sub(newest);
         match step {
             0 => FrameOrder::Repeated,
-            1..=LARGEST_GAP => {
+            _ if (1..=largest_gap).contains(&step) => {
                 counts.missing += u64::from(step.unsigned_abs() - 1);
                 self.newest = Some(number);
                 self.seen = self.seen.checked_shl(step.unsigned_abs()).unwrap_or(0) | 1;
@@ -117,8 +138,14 @@ impl FrameNumbers {
     }
 }
 
-/// A larger step is a jump: 10 s at 100 Hz.
+/// A larger step is a jump: 10 s at 100 Hz, and what the fastest cameras can have sent since the frame before.
+fn largest_gap(passed: Duration) -> i32 {
+    let sent = passed.as_millis().saturating_mul(FASTEST_PER_MILLISECOND);
+    i32::try_from(sent).unwrap_or(i32::MAX).saturating_add(LARGEST_GAP)
+}
+
 const LARGEST_GAP: i32 = 1000;
+const FASTEST_PER_MILLISECOND: u128 = 1;
 
 #[cfg(test)]
 mod tests {
@@ -137,7 +164,7 @@ mod tests {
                 host_stamps,
                 ..Frame::default()
             };
-            numbers.note(&frame, &mut counts)
+            numbers.note(Stamp(0), &frame, &mut counts)
         };
         let orders = frames.into_iter().map(note).collect();
         (orders, counts)
@@ -166,6 +193,25 @@ mod tests {
         assert_eq!((counts.missing, counts.jumps), (0, 1));
         let (orders, _) = run([(5000, None), (0, None), (1, None)]);
         assert_eq!(orders[1..], [FrameOrder::Jump, FrameOrder::Next]);
+    }
+
+    #[test]
+    fn after_a_pause_higher_numbers_leave_a_gap_and_lower_ones_begin_anew() {
+        let after = |seconds: i64, number: i32| {
+            let (mut numbers, mut counts) = (FrameNumbers::default(), FrameCounts::default());
+            let frame = |number| Frame {
+                number,
+                ..Frame::default()
+            };
+            numbers.note(Stamp(0), &frame(20), &mut counts);
+            numbers.pause();
+            let order = numbers.note(Stamp::from_parts(seconds, 0), &frame(number), &mut counts);
+            (order, counts.missing, counts.jumps)
+        };
+        assert_eq!(after(30, 20 + 7200), (FrameOrder::Next, 7199, 0));
+        assert_eq!(after(3, 20 + 7200), (FrameOrder::Jump, 0, 1));
+        assert_eq!(after(3, 2), (FrameOrder::Jump, 0, 1));
+        assert_eq!(after(3, 20), (FrameOrder::Repeated, 0, 0));
     }
 
     #[test]

@@ -27,7 +27,7 @@ impl Client {
         if self.server.is_none() {
             return Ok(());
         }
-        self.heard = now;
+        self.heard = self.heard.max(now);
         self.take_command(now, packet)
     }
 
@@ -57,7 +57,7 @@ impl Client {
     /// The same server may answer many times: to a connect that was sent twice, or when it was asked whether
     /// it is still there.
     fn take_server_info(&mut self, now: Stamp, from: SocketAddr, info: ServerInfo) {
-        self.heard = now;
+        self.heard = self.heard.max(now);
         self.timers.connect.stop();
         let version = info.server.natnet_version;
         if let Some(known) = self.server.as_ref().filter(|peer| peer.info == info) {
@@ -77,9 +77,8 @@ impl Client {
     /// Begins anew with a server that was not known.
     fn adopt(&mut self, now: Stamp, from: SocketAddr, info: ServerInfo) {
         let version = info.server.natnet_version;
-        self.clock = ServerClock::new(info.connection.map_or(0, |connection| connection.clock_frequency));
         self.timers.connected(now, info.connection.is_some(), &self.options);
-        self.numbers.restart();
+        self.meet(from, info.connection.map_or(0, |connection| connection.clock_frequency));
         self.requests.restart(now);
         self.model_changed = false;
         let event = Event::Connected {
@@ -94,12 +93,23 @@ impl Client {
         self.outputs.event(event);
     }
 
+    /// The numbers and the clock of another server say nothing; those of the same one say what was missed.
+    fn meet(&mut self, server: SocketAddr, clock_frequency: u64) {
+        if self.last_server.replace(server).is_some_and(|last| last != server) {
+            self.numbers.restart();
+            self.latest.clear();
+            self.clock = ServerClock::new(clock_frequency);
+        } else {
+            self.clock.resume(clock_frequency);
+        }
+    }
+
     fn take_frame(&mut self, now: Stamp, packet: &Packet<'_>) -> Result<(), Error> {
         let Some(version) = self.version() else {
-            self.counts.early += 1;
+            self.count_unread();
             return Ok(());
         };
-        self.heard = now;
+        self.heard = self.heard.max(now);
         if packet.payload == self.latest {
             self.counts.duplicate += 1;
             return Ok(());
@@ -110,7 +120,7 @@ impl Client {
         if self.server.is_some() {
             self.note_frame(now, &frame);
         }
-        let order = self.numbers.note(&frame, &mut self.counts);
+        let order = self.numbers.note(now, &frame, &mut self.counts);
         self.outputs.event(Event::Frame(ReceivedFrame {
             frame: Arc::new(frame),
             received: now,
@@ -120,6 +130,14 @@ impl Client {
         Ok(())
     }
 
+    fn count_unread(&mut self) {
+        if self.numbers.have_begun() {
+            self.counts.refused += 1;
+        } else {
+            self.counts.early += 1;
+        }
+    }
+
     /// The bits of a frame ask for something when they appear; some servers leave them set.
     fn note_frame(&mut self, now: Stamp, frame: &Frame) {
         let params = frame.params.unwrap_or_default();
@@ -127,6 +145,7 @@ impl Client {
         // After a pause the server may be another one at the same place.
         let after_pause = self.timers.frame_came(now, &self.options);
         if after_pause {
+            self.numbers.pause();
             self.negotiate(now);
         }
         if after_pause || (model_changed && !self.model_changed) {

@@ -4,7 +4,6 @@ use std::net::SocketAddr;
 
 use posewire_motion::Stamp;
 
-use super::clock::ServerClock;
 use super::requests::Step;
 use super::timers::Timers;
 use super::{Answer, Client, Event, LostReason, Mode};
@@ -20,12 +19,16 @@ impl Client {
         if self.timers.keep_alive.is_due(now) {
             self.outputs.command(to, &Message::KeepAlive);
         }
+        self.ask(now);
+    }
+
+    /// To be called with the time now: a datagram may have arrived a while before anything is sent for it.
+    pub(super) fn ask_for_clock(&mut self, now: Stamp) {
         if self.timers.echo.is_due(now) {
             let client_ticks = self.clock.ask(now);
-            self.outputs
-                .command(to, &Message::EchoRequest(EchoRequest { client_ticks }));
+            let request = EchoRequest { client_ticks };
+            self.outputs.command(self.address(), &Message::EchoRequest(request));
         }
-        self.ask(now);
     }
 
     pub(super) fn ask(&mut self, now: Stamp) {
@@ -64,7 +67,8 @@ impl Client {
 
     pub(super) fn lose(&mut self, now: Stamp, reason: LostReason) {
         self.server = None;
-        self.clock = ServerClock::default();
+        self.clock.doubt();
+        self.numbers.pause();
         self.timers = Timers::new(&self.options);
         self.timers.connect.start(now.after(self.options.retry));
         self.outputs.event(Event::Lost(reason));

@@ -62,11 +62,12 @@ impl Response {
         }
     }
 
-    /// A string, such as `Bitstream,3.1`.
+    /// A string, such as `Bitstream,3.1`. No zero ends it, as the payload does: the vendor's Python client reads the
+    /// last number up to the end of the datagram and dies of a zero there.
     pub fn text(text: &str) -> Self {
-        let mut bytes = Vec::new();
-        Text::from(text).encode(&mut bytes);
-        Self { bytes }
+        Self {
+            bytes: text.as_bytes().to_vec(),
+        }
     }
 
     /// The answer to a request that has a whole number for an answer.

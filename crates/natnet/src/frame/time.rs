@@ -7,7 +7,7 @@ use std::fmt;
 pub struct Timecode {
     /// Hours, minutes, seconds and frames, one byte each from the highest.
     pub code: u32,
-    /// Part of a frame.
+    /// Part of a frame. The documents name no unit; [`motion`](crate::motion) counts milliseconds.
     pub subframe: u32,
 }
 

@@ -4,26 +4,48 @@ use crate::frame::Timecode;
 use posewire_motion::Timecode as TimeOfDay;
 use std::time::Duration;
 
-/// The time of day of a timecode. Zero, which servers without a timecode generator send, is `None`.
+/// The time of day of a timecode, its subframe in milliseconds; a subframe that would reach the next frame ends just before
+/// it. Zero, which servers without a timecode generator send, is `None`.
 pub(super) fn timecode_in(timecode: Option<Timecode>, rate: f64) -> Option<TimeOfDay> {
     let timecode = timecode.filter(|timecode| *timecode != Timecode::default())?;
     let [hours, minutes, seconds, frame] = timecode.parts().map(u32::from);
-    Some(TimeOfDay::from_frame(hours, minutes, seconds, frame, rate))
+    let start = TimeOfDay::from_frame(hours, minutes, seconds, frame, rate);
+    let next = begin(frame + 1, rate).min(1000);
+    let longest = next.saturating_sub(begin(frame, rate)).saturating_sub(1);
+    let milliseconds = start.milliseconds() + timecode.subframe.min(longest);
+    Some(TimeOfDay::from_milliseconds(milliseconds.into()))
 }
 
-/// The timecode that is nearest to a time of day and not in another second.
+/// The timecode of a time of day: the frame that has begun last, and the milliseconds since then.
 pub(super) fn timecode_out(time: Option<TimeOfDay>, rate: f64) -> Option<Timecode> {
     let milliseconds = time?.milliseconds();
     let [hours, minutes, seconds] = [3_600_000, 60_000, 1000].map(|unit| milliseconds / unit);
-    let last = (rate.ceil() - 1.0).clamp(0.0, 255.0);
-    let frame = (f64::from(milliseconds % 1000) * rate / 1000.0).round().min(last);
+    let rest = milliseconds % 1000;
+    let frame = frame_at(rest, rate);
     Some(Timecode::new(
         hours as u8,
         (minutes % 60) as u8,
         (seconds % 60) as u8,
         frame as u8,
-        0,
+        rest - begin(frame, rate),
     ))
+}
+
+/// The last of the frames of a second that has begun by then.
+fn frame_at(milliseconds: u32, rate: f64) -> u32 {
+    let last = (rate.ceil() - 1.0).clamp(0.0, 255.0);
+    // Half a millisecond more, as the beginnings are rounded to whole ones.
+    let frame = ((f64::from(milliseconds) + 0.5) * rate / 1000.0).min(last) as u32;
+    if begin(frame, rate) > milliseconds {
+        frame - 1
+    } else {
+        frame
+    }
+}
+
+/// Milliseconds from the second to a frame of it.
+fn begin(frame: u32, rate: f64) -> u32 {
+    TimeOfDay::from_frame(0, 0, 0, frame, rate).milliseconds()
 }
 
 /// The source's clock: zero before 2.6, which has no timestamp, and for one that is no time.
@@ -38,14 +60,36 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_timecode_comes_back_within_its_frame() {
-        for text in ["04:17:11.500", "23:59:59.967", "00:00:01.033"] {
-            let time: TimeOfDay = text.parse().unwrap();
-            assert_eq!(timecode_in(timecode_out(Some(time), 30.0), 30.0), Some(time));
+    fn a_timecode_comes_back_to_the_millisecond() {
+        for rate in [23.976, 24.0, 25.0, 29.97, 30.0, 60.0, 120.0] {
+            for milliseconds in (15_431_000..15_432_000).chain([86_399_999]) {
+                let time = TimeOfDay::from_milliseconds(milliseconds);
+                let back = timecode_in(timecode_out(Some(time), rate), rate);
+                assert_eq!(back, Some(time), "{rate} Hz");
+            }
         }
-        let late = "00:00:01.999".parse().ok();
-        assert_eq!(timecode_out(late, 30.0), Some(Timecode::new(0, 0, 1, 29, 0)));
         assert_eq!(timecode_in(Some(Timecode::default()), 30.0), None);
+    }
+
+    #[test]
+    fn a_subframe_is_milliseconds_since_the_frame() {
+        let out = |text: &str| timecode_out(text.parse().ok(), 30.0);
+        assert_eq!(out("00:00:01.033"), Some(Timecode::new(0, 0, 1, 1, 0)));
+        assert_eq!(out("00:00:01.050"), Some(Timecode::new(0, 0, 1, 1, 17)));
+        assert_eq!(out("00:00:01.999"), Some(Timecode::new(0, 0, 1, 29, 32)));
+    }
+
+    #[test]
+    fn a_subframe_that_is_no_milliseconds_stays_in_its_frame() {
+        for (frame, end) in [(0, "00:00:01.032"), (29, "00:00:01.999")] {
+            let timecode = Timecode::new(0, 0, 1, frame, u32::MAX);
+            assert_eq!(timecode_in(Some(timecode), 30.0), end.parse().ok());
+        }
+        let extreme = Timecode::new(255, 255, 255, 255, u32::MAX);
+        for rate in [f64::NAN, 0.0, -1.0, f64::MIN_POSITIVE, 1e9] {
+            assert!(timecode_in(Some(extreme), rate).is_some());
+            assert!(timecode_out("23:59:59.999".parse().ok(), rate).is_some());
+        }
     }
 
     #[test]

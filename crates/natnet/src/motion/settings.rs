@@ -11,7 +11,7 @@ pub struct Settings {
     pub skeleton: Coordinates,
     /// Frames a second, where the server was asked (`FrameRate`). Subjects carry it.
     pub rate: Option<f64>,
-    /// Frames a second that timecodes count. A timecode is no finer than that.
+    /// Frames a second that timecodes count. A subframe is a millisecond since the frame began.
     pub timecode_rate: f64,
 }
 

@@ -2,6 +2,7 @@
 
 use std::net::SocketAddr;
 
+use super::bones::{fitting_frame, fitting_model};
 use super::encodings::Encoded;
 use super::{ConnectedClient, Delivery, Event, Server};
 use crate::command::{ConnectionInfo, Sender, ServerInfo};
@@ -85,14 +86,16 @@ impl Server {
     }
 }
 
-fn model_packet(model: &Model, layout: Version) -> Encoded {
+pub(super) fn model_packet(model: &Model, layout: Version) -> Encoded {
     let mut bytes = Vec::new();
+    let model = fitting_model(model, layout);
     Packet::encode(MessageId::MODEL, &mut bytes, |out| model.encode(layout, out))?;
     Ok(bytes.into())
 }
 
 pub(super) fn frame_packet(frame: &Frame, layout: Version, announce: bool) -> Encoded {
     let mut bytes = Vec::new();
+    let frame = fitting_frame(frame, layout);
     Packet::encode(MessageId::FRAME, &mut bytes, |out| frame.encode(layout, out))?;
     if announce && layout.has_params() {
         set_model_changed(&mut bytes);

@@ -7,7 +7,7 @@ use posewire_motion::Stamp;
 use posewire_natnet::client::{
     Answer, Client, ClientOptions, DataSource, Discovery, Event, Found, FrameOrder, LostReason, Mode,
 };
-use posewire_natnet::command::{ConnectionInfo, Response, Sender, ServerInfo};
+use posewire_natnet::command::{ConnectionInfo, EchoResponse, Response, Sender, ServerInfo};
 use posewire_natnet::frame::Frame;
 use posewire_natnet::model::Model;
 use posewire_natnet::{Error, Message, MessageId, Output, Version};
@@ -37,6 +37,7 @@ impl Harness {
     fn connected(options: ClientOptions) -> Self {
         let mut harness = Self::new(options);
         harness.answer(&Message::ServerInfo(info("Motive", harness.version)));
+        harness.wait(Duration::ZERO);
         harness.drain();
         harness
     }
@@ -122,6 +123,23 @@ fn the_first_message_says_who_connects_and_which_version_it_wants() {
 }
 
 #[test]
+fn frames_of_a_server_that_was_lost_are_refused_until_it_answers_and_then_missing() {
+    let mut harness = Harness::connected(ClientOptions::new(server_address(), Mode::Unicast));
+    harness.answer(&boxed(1));
+    harness.wait(Duration::from_secs(4));
+    assert_eq!(harness.client.version(), None);
+    harness.answer(&boxed(2));
+    harness.answer(&boxed(3));
+    harness.answer(&Message::ServerInfo(info("Motive", harness.version)));
+    harness.answer(&boxed(4));
+    let counts = harness.client.counts();
+    assert_eq!(
+        (counts.received, counts.missing, counts.refused, counts.early),
+        (2, 2, 2, 0)
+    );
+}
+
+#[test]
 fn a_connected_client_shows_that_it_lives_and_asks_for_the_clock() {
     let mut harness = Harness::connected(ClientOptions::new(server_address(), Mode::Unicast));
     let (mut keep_alives, mut echoes) = (0, 0);
@@ -136,6 +154,30 @@ fn a_connected_client_shows_that_it_lives_and_asks_for_the_clock() {
             .count();
     }
     assert_eq!((keep_alives, echoes), (10, 20));
+}
+
+#[test]
+fn an_echo_that_is_read_after_a_later_frame_is_as_fast_as_it_was() {
+    let mut harness = Harness::connected(ClientOptions::new(server_address(), Mode::Multicast));
+    harness.wait(Duration::from_secs(1));
+    let asked = harness.drain().1.into_iter().rev().find_map(|message| match message {
+        Message::EchoRequest(request) => Some(request.client_ticks),
+        _ => None,
+    });
+    let client_ticks = asked.unwrap();
+    let sent = Stamp(client_ticks as i64);
+    harness.now = sent.after(milliseconds(9));
+    harness.answer_from(data_address(), &boxed(1));
+    harness.now = sent.after(milliseconds(2));
+    harness.answer(&Message::EchoResponse(EchoResponse {
+        client_ticks,
+        server_ticks: 7,
+    }));
+    let estimate = harness.client.clock(sent.after(milliseconds(9))).unwrap();
+    assert_eq!(
+        (estimate.round_trip, estimate.at),
+        (milliseconds(2), sent.after(milliseconds(1)))
+    );
 }
 
 #[test]

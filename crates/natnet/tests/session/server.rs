@@ -6,7 +6,8 @@ use std::time::Duration;
 
 use posewire_motion::Stamp;
 use posewire_natnet::command::{Connect, ConnectOptions, EchoRequest, Response, Sender, Text};
-use posewire_natnet::frame::{Frame, FrameParams};
+use posewire_natnet::frame::{Frame, FrameParams, RigidBody, Skeleton};
+use posewire_natnet::model::{Description, RigidBodyDescription, SkeletonDescription};
 use posewire_natnet::server::{Delivery, Event, LeftReason, Server, ServerOptions};
 use posewire_natnet::{Error, Message, MessageId, Name, Output, Packet, Socket, Transmit, Version};
 
@@ -127,6 +128,17 @@ fn requests_get_the_answers_that_clients_wait_for() {
     }
     let unknown = ask(&mut server, &Message::Request("service20,-1,bytes".into()));
     assert!(matches!(&unknown[..], [Message::UnrecognizedRequest(Some(sender))] if sender.name == "Motive"));
+}
+
+/// The vendor's Python client takes all that comes behind the dot for a number.
+#[test]
+fn an_answer_in_text_ends_with_its_last_letter() {
+    let mut server = server();
+    connect(&mut server, client_address(), None);
+    drain(&mut server);
+    server.handle(START, client_address(), &encoded(&Message::Request("Bitstream".into())));
+    let (_, transmits) = drain(&mut server);
+    assert_eq!(&*transmits[0].bytes, b"\x03\0\x0d\0Bitstream,4.1");
 }
 
 #[test]
@@ -410,4 +422,63 @@ fn whoever_never_polls_loses_the_oldest_and_knows_how_many() {
     }
     assert_eq!(server.outputs_dropped(), 1002 - 512);
     assert_eq!(drain(&mut server).1.len(), 512);
+}
+
+#[test]
+fn before_skeletons_bones_are_rigid_bodies() {
+    let bone = |id, parent_id, name: &str| RigidBodyDescription {
+        name: name.into(),
+        id,
+        parent_id,
+        ..RigidBodyDescription::default()
+    };
+    let skeleton = SkeletonDescription {
+        name: "Ada".into(),
+        id: 2,
+        bones: vec![bone(1, 0, "Pelvis"), bone(2, 1, "L5")],
+    };
+    let mut model = model(&["wand"]);
+    model.descriptions.push(Description::Skeleton(skeleton));
+    let bodies = |ids: &[i32]| {
+        ids.iter()
+            .map(|id| RigidBody {
+                id: *id,
+                ..RigidBody::default()
+            })
+            .collect()
+    };
+    let mut sent = frame(1);
+    sent.skeletons = vec![Skeleton {
+        id: 2,
+        bones: bodies(&[0x2_0001, 0x2_0002]),
+    }];
+    // 1.4 has no names of bodies.
+    for (version, names) in [
+        (Version::new(1, 4), ["", ""]),
+        (Version::new(2, 0), ["Ada/Pelvis", "Ada/L5"]),
+    ] {
+        let mut server = server();
+        server.set_model(model.clone()).unwrap();
+        connect(&mut server, client(1), Some(version));
+        drain(&mut server);
+        server.send_frame(&sent).unwrap();
+        server.handle(START, client(1), &encoded(&Message::RequestModel));
+        let (_, transmits) = drain(&mut server);
+        let decode = |place: usize| Message::decode(version, &transmits[place].bytes).unwrap().0;
+        let (Message::Frame(received), Message::Model(described)) = (decode(0), decode(1)) else {
+            panic!("{version}")
+        };
+        let ids: Vec<_> = received.rigid_bodies.iter().map(|body| body.id).collect();
+        assert_eq!(ids, [1, 0x2_0001, 0x2_0002]);
+        let of_bones = |one: &Description| match one {
+            Description::RigidBody(body) if body.id > 1 => Some((body.name.to_string(), body.id, body.parent_id)),
+            _ => None,
+        };
+        let found: Vec<_> = described.descriptions.iter().filter_map(of_bones).collect();
+        let expected = [
+            (names[0].to_owned(), 0x2_0001, -1),
+            (names[1].to_owned(), 0x2_0002, 0x2_0001),
+        ];
+        assert_eq!(found, expected);
+    }
 }

@@ -6,7 +6,7 @@ use std::time::Duration;
 use posewire_natnet::client::{Answer, ClientOptions, Event, LostReason, Mode};
 use posewire_natnet::command::Response;
 use posewire_natnet::server::{self, Delivery, ServerOptions};
-use posewire_natnet::{MessageId, Version};
+use posewire_natnet::{Message, MessageId, Version};
 
 use crate::network::{Link, World, client_address, milliseconds, model, server_address};
 
@@ -22,6 +22,12 @@ fn unicast_wishing(server: Version, wish: Option<Version>) -> World {
         ..ClientOptions::new(server_address(), Mode::Unicast)
     };
     World::new(server, client)
+}
+
+fn keep_alive() -> Vec<u8> {
+    let mut bytes = Vec::new();
+    Message::KeepAlive.encode(Version::LATEST, &mut bytes).unwrap();
+    bytes
 }
 
 fn names(event: &Event) -> Option<Vec<String>> {
@@ -179,6 +185,45 @@ fn a_server_that_vanishes_is_lost_and_found_when_it_returns() {
     assert_eq!(world.count(|event| matches!(event, Event::Connected { .. })), 1);
     assert!(world.events.iter().any(|event| names(event).is_some()));
     assert!(world.frames().count() > 150);
+}
+
+#[test]
+fn frames_sent_while_the_connection_was_lost_are_missing() {
+    let mut world = World::unicast();
+    world.run(SECOND);
+    let server_heard_us = world.now.after(SECOND * 5);
+    world.link.loss_percent = 100;
+    world.run(SECOND * 5);
+    world
+        .server
+        .as_mut()
+        .unwrap()
+        .handle(server_heard_us, client_address(), &keep_alive());
+    world.link.loss_percent = 0;
+    world.run(SECOND * 4);
+    assert_eq!(world.count(|event| matches!(event, Event::Connected { .. })), 2);
+    let counts = world.client.counts();
+    let sent = u64::try_from(world.frame_number).unwrap();
+    assert!(counts.missing >= 500 && counts.jumps == 0, "{counts:?}");
+    assert!(
+        (sent - 2..=sent).contains(&(counts.received + counts.missing)),
+        "{sent} {counts:?}"
+    );
+}
+
+#[test]
+fn a_server_that_counts_anew_after_a_restart_is_a_reset() {
+    let mut world = World::unicast();
+    world.run(milliseconds(300));
+    world.server = None;
+    world.run(SECOND * 4);
+    let mut server = server::Server::new(ServerOptions::default());
+    server.set_model(model(&["wand"])).unwrap();
+    world.server = Some(server);
+    world.frame_number = 0;
+    world.run(SECOND * 4);
+    let counts = world.client.counts();
+    assert_eq!((counts.jumps, counts.missing, counts.late), (1, 0, 0), "{counts:?}");
 }
 
 #[test]

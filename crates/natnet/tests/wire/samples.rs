@@ -152,7 +152,12 @@ fn commands() -> Vec<Sample> {
         ("request", Message::Request("FrameRate".into())),
         ("response_number", Message::Response(Response::number(0))),
         ("response_float", Message::Response(Response::float(120.0))),
-        ("response_text", Message::Response(Response::text("Bitstream,3.1"))),
+        (
+            "response_text",
+            Message::Response(Response {
+                bytes: b"Bitstream,3.1\0".to_vec(),
+            }),
+        ),
         ("request_model", Message::RequestModel),
         ("request_frame", Message::RequestFrame),
         ("message_string", Message::MessageString("take saved".into())),

@@ -6,7 +6,7 @@ use std::net::Ipv4Addr;
 use posewire_motion::Up;
 use posewire_natnet::Version;
 use posewire_natnet::client::Mode;
-use posewire_natnet::motion::Coordinates;
+use posewire_natnet::motion::{Coordinates, Settings};
 use posewire_natnet::server::Delivery;
 
 use super::address::{Host, Interface, parse_interface, parse_place};
@@ -75,6 +75,15 @@ impl NatNetAddress {
         }
     }
 
+    /// What positions and bones of the server mean.
+    pub(crate) fn settings(&self) -> Settings {
+        Settings {
+            up: self.up,
+            skeleton: self.skeleton,
+            ..Settings::default()
+        }
+    }
+
     pub(super) fn parse(whole: &str, body: &str) -> Result<Self> {
         let url = Url::cut(whole, body, OPTIONS)?;
         let (host, port) = parse_place(&url, Self::COMMAND_PORT)?;
@@ -88,9 +97,19 @@ impl NatNetAddress {
             is_group(*group)
         })?;
         let copy = url.parsed("copy", "true or false", |_| true)?;
+        let mode = choice(&url, "mode", "unicast or multicast", &MODES)?.unwrap_or(Mode::Unicast);
+        match mode {
+            Mode::Unicast if group.is_some_and(|group| group != Self::GROUP) => {
+                return Err(url.mistake("mode of a group", "multicast", word(&mode, &MODES)));
+            }
+            Mode::Multicast if copy == Some(true) => {
+                return Err(url.mistake("mode of copies", "unicast", word(&mode, &MODES)));
+            }
+            _ => {}
+        }
         Ok(Self {
-            mode: choice(&url, "mode", "unicast or multicast", &MODES)?.unwrap_or(Mode::Unicast),
-            version: url.parsed("version", "a version from 1.4 to 4.5", |version| is_known(*version))?,
+            mode,
+            version: url.parsed("version", "a number from 1.4 to 4.5", |version| is_known(*version))?,
             data_port: data_port.unwrap_or(Self::DATA_PORT),
             group: group.unwrap_or(Self::GROUP),
             interface: parse_interface(&url)?,
@@ -133,12 +152,12 @@ impl fmt::Display for NatNetAddress {
     }
 }
 
-/// The value of an option that has a few words.
+/// The value of an option that has a few words, which people write as Motive does or in small letters.
 fn choice<T: Copy>(url: &Url<'_>, key: &'static str, expected: &'static str, words: &[(&str, T)]) -> Result<Option<T>> {
     let Some(text) = url.option(key) else {
         return Ok(None);
     };
-    match words.iter().find(|(word, _)| *word == text) {
+    match words.iter().find(|(word, _)| word.eq_ignore_ascii_case(text)) {
         Some((_, value)) => Ok(Some(*value)),
         None => Err(url.mistake(key, expected, text)),
     }

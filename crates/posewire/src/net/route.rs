@@ -88,6 +88,31 @@ pub(crate) fn broadcast_addresses(interface: Option<&Interface>) -> Result<Vec<I
     Ok(all)
 }
 
+/// The broadcast addresses that a socket bound to this address of the machine's does not hear, though they are meant for it
+/// as well. Only Linux lets others be bound for them.
+pub(crate) fn broadcasts_beside(address: IpAddr) -> Vec<Ipv4Addr> {
+    let IpAddr::V4(own) = address else {
+        return Vec::new();
+    };
+    if cfg!(not(target_os = "linux")) || own.is_unspecified() || own.is_multicast() || own.is_broadcast() {
+        return Vec::new();
+    }
+    let is_on = |found: &LocalInterface| {
+        let is_loopback = own.is_loopback() && found.addresses.iter().any(IpAddr::is_loopback);
+        is_loopback || found.addresses.contains(&address)
+    };
+    let mut all: Vec<_> = list()
+        .into_iter()
+        .filter(is_on)
+        .flat_map(|found| found.broadcasts)
+        .collect();
+    // Nobody sends to all networks by the loopback.
+    all.extend((!own.is_loopback()).then_some(Ipv4Addr::BROADCAST));
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
 /// Whether an address is one of this machine's.
 pub(crate) fn is_own(address: IpAddr) -> bool {
     address.is_loopback() || list().iter().any(|found| found.addresses.contains(&address))

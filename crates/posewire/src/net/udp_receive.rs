@@ -51,9 +51,9 @@ pub struct UdpReceiver {
 impl UdpReceiver {
     /// Binds the address, and joins it if it is a multicast group.
     ///
-    /// Only a group, or the address of all that is 255.255.255.255, can be shared with other programs (`SO_REUSEADDR`). An `interface` is the one
-    /// that a group is joined on; for any other address only datagrams that arrive on it are
-    /// taken.
+    /// Only a group, or the address of all that is 255.255.255.255, can be shared with other programs
+    /// (`SO_REUSEADDR`). An `interface` is the one that a group is joined on; for any other address only datagrams that
+    /// arrive on it are taken.
     ///
     /// # Errors
     /// [`Error::Resolve`], [`Error::Interface`], and [`Error::Socket`] when the system refuses,

@@ -68,15 +68,18 @@ impl ServedPort {
         set().map_err(|error| Error::socket("multicast from", format!("udp {}", self.local), &error))
     }
 
-    /// Makes sending never wait at all, which ends receiving.
-    pub(crate) fn only_send(&self) -> Result<()> {
+    /// Makes sending never wait at all, nor receiving.
+    pub(crate) fn never_wait(&self) -> Result<()> {
         let refused = |error: io::Error| Error::socket("send from", format!("udp {}", self.local), &error);
         self.socket.set_nonblocking(true).map_err(refused)
     }
 
-    /// Waits at most `timeout` for a datagram, which goes to the beginning of `buffer`; `None` when none came.
+    /// Waits at most `timeout` for a datagram, which goes to the beginning of `buffer`; `None` when none came. One that
+    /// [never waits](Self::never_wait) takes a timeout of zero.
     pub(crate) fn receive(&self, timeout: Duration, buffer: &mut [u8]) -> io::Result<Option<(usize, SocketAddr)>> {
-        self.socket.set_read_timeout(Some(timeout))?;
+        if !timeout.is_zero() {
+            self.socket.set_read_timeout(Some(timeout))?;
+        }
         match self.socket.recv_from(buffer) {
             Ok((length, from)) => Ok(Some((length, from))),
             Err(error) if is_nothing(&error) || is_nobody(&error) => Ok(None),

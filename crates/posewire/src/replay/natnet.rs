@@ -49,7 +49,7 @@ impl RawServer {
         let opening = Opening::find(path, options, source)?;
         let ports = NatNetPorts::open(address)?;
         let address = NatNetAddress {
-            port: ports.command.local_address().port(),
+            port: ports.local_address().port(),
             data_port: ports.data_port,
             ..address.clone()
         };
@@ -143,17 +143,14 @@ impl Shared {
     fn answer_all(&self) {
         let mut buffer = vec![0; LONGEST];
         while !self.ending.is_stopped() {
-            match self.ports.command.receive(TICK, &mut buffer) {
-                Ok(Some((length, from))) => {
-                    let bytes = buffer.get(..length).unwrap_or_default();
-                    self.lock().handle(self.clock.steady(), from, bytes);
-                }
-                Ok(None) => self.lock().handle_timeout(self.clock.steady()),
-                Err(error) => {
-                    tracing::warn!(%error, "cannot receive commands");
-                    self.ending.wait(TICK);
-                }
+            let received = self.ports.receive(TICK, &mut buffer, |from, bytes| {
+                self.lock().handle(self.clock.steady(), from, bytes);
+            });
+            if let Err(error) = received {
+                tracing::warn!(%error, "cannot receive commands");
+                self.ending.wait(TICK);
             }
+            self.lock().handle_timeout(self.clock.steady());
             self.transmit();
         }
     }

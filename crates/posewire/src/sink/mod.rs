@@ -4,6 +4,7 @@ mod mxtp;
 mod natnet;
 mod progress;
 mod record;
+mod take;
 
 pub(crate) use mxtp::Target as MxtpTarget;
 pub use mxtp::{MxtpSink, MxtpSinkOptions};
@@ -11,6 +12,7 @@ pub(crate) use natnet::Ports as NatNetPorts;
 pub use natnet::{NatNetSink, NatNetSinkOptions};
 pub use progress::{ClientProgress, ClientState, LeftOut, Progress, TargetProgress};
 pub use record::{RecordOptions, RecordProgress, RecordSink, RecordedSource, RecordedSubject};
+pub use take::TakeSink;
 
 use crate::queue::Policy;
 use crate::{Error, Item, Result, SourceId};

@@ -30,8 +30,8 @@ pub struct LeftOut {
 }
 
 impl Progress {
-    /// The progress of one stream that several sinks send: all targets, the most frames, and the lateness of the sink
-    /// that was latest.
+    /// The progress of one stream that several sinks send: all targets, the most frames, the lateness of the sink
+    /// that was latest, and what any of them leaves out, once.
     pub fn of_all(sinks: impl IntoIterator<Item = Self>) -> Self {
         sinks.into_iter().reduce(Self::beside).unwrap_or_default()
     }
@@ -50,7 +50,11 @@ impl Progress {
             self.lateness = other.lateness;
         }
         self.targets.extend(other.targets);
-        self.left_out.extend(other.left_out);
+        for entry in other.left_out {
+            if !self.left_out.contains(&entry) {
+                self.left_out.push(entry);
+            }
+        }
         self.faults = match (self.faults, other.faults) {
             (Some(ours), Some(others)) => Some(ours.and(&others)),
             (ours, others) => ours.or(others),
@@ -125,12 +129,16 @@ mod tests {
                 congested,
                 ..TargetProgress::default()
             }],
-            left_out: Vec::new(),
+            left_out: vec![LeftOut {
+                what: "velocities".to_owned(),
+                why: "there is no place",
+            }],
             faults: None,
         };
         let all = Progress::of_all([progress(240, 3, "mxtp://a", 1), progress(238, 5, "natnet://b", 2)]);
         let endpoints: Vec<_> = all.targets.iter().map(|target| target.endpoint.as_str()).collect();
         assert_eq!(endpoints, ["mxtp://a", "natnet://b"]);
         assert_eq!((all.frames, all.lateness.max.as_millis(), all.lost()), (240, 5, 3));
+        assert_eq!(all.left_out.len(), 1, "it is said once");
     }
 }

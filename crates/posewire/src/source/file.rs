@@ -13,10 +13,11 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// An MVNX file, read as it is played, and what follows from its poses computed where the file lacks it.
+/// An MVNX file, read as it is played, and what follows from its poses computed where the file lacks it, if it is to be.
 pub(super) struct TakeFile {
     path: PathBuf,
     salvage: bool,
+    computes: bool,
     reader: Reader<BufReader<File>>,
     ergonomic: AllErgonomicAngles,
     differences: Differences,
@@ -27,19 +28,33 @@ pub(super) struct TakeFile {
 }
 
 impl TakeFile {
-    pub(super) fn open(path: &Path, salvage: bool) -> Result<Self> {
+    pub(super) fn open(path: &Path, salvage: bool, computes: bool) -> Result<Self> {
         let reader = open(path, salvage)?;
         let differences = Differences::new(rate_hz(reader.subject()));
         let ergonomic = AllErgonomicAngles::of(reader.subject());
         Ok(Self {
             path: path.to_owned(),
             salvage,
+            computes,
             reader,
             ergonomic,
             differences,
             computed: Vec::new(),
             last: None,
         })
+    }
+
+    /// The next sample that is complete; what is computed from its neighbours comes a few samples later.
+    fn complete(&mut self, mut frame: Frame) -> Option<Frame> {
+        if !self.computes {
+            return Some(frame);
+        }
+        if self.reader.counts().normal == 1 {
+            self.computed = lacking(&frame);
+        }
+        self.ergonomic.complete(&mut frame);
+        complete(&mut frame);
+        self.differences.push(frame)
     }
 }
 
@@ -49,7 +64,7 @@ impl TakeFile {
 /// [`Error::Read`] when the file cannot be opened, [`Error::Take`] when it is not a take.
 pub(crate) fn open(path: &Path, salvage: bool) -> Result<Reader<BufReader<File>>> {
     let file = File::open(path).map_err(|error| Error::read(path, &error))?;
-    let reader = Reader::new(BufReader::with_capacity(BUFFER, file)).map_err(|error| Error::take(path, error))?;
+    let reader = Reader::new(BufReader::with_capacity(BUFFER, file)).map_err(|error| Error::take(path, error, 0))?;
     Ok(reader.salvage(salvage))
 }
 
@@ -76,16 +91,10 @@ impl Frames for TakeFile {
 
     fn next_sample(&mut self, frames: &mut Vec<Frame>) -> Result<bool> {
         while self.last.is_none() {
-            let completed = match self.reader.next() {
-                Some(frame) => {
-                    let mut frame = frame.map_err(|error| Error::take(&self.path, error))?;
-                    if self.reader.counts().normal == 1 {
-                        self.computed = lacking(&frame);
-                    }
-                    self.ergonomic.complete(&mut frame);
-                    complete(&mut frame);
-                    self.differences.push(frame)
-                }
+            let frame = self.reader.next().transpose();
+            let before = self.reader.counts().normal;
+            let completed = match frame.map_err(|error| Error::take(&self.path, error, before))? {
+                Some(frame) => self.complete(frame),
                 None => self.last.insert(self.differences.finish().collect()).pop_front(),
             };
             if let Some(frame) = completed {
@@ -99,7 +108,7 @@ impl Frames for TakeFile {
     }
 
     fn rewind(&mut self) -> Result<()> {
-        *self = Self::open(&self.path, self.salvage)?;
+        *self = Self::open(&self.path, self.salvage, self.computes)?;
         Ok(())
     }
 

@@ -51,10 +51,11 @@ impl Source {
             Endpoint::MxtpTcp(address) => Kind::MxtpTcp(MxtpTcp::open(address)?),
             Endpoint::NatNet(address) => Kind::NatNet(Box::new(NatNet::open(address)?)),
             Endpoint::Synthetic(walk) => Kind::Playback(Playback::of_walk(walk, options)?),
-            Endpoint::File { path, format } if format.is_capture() => {
-                Kind::Capture(Box::new(CapturePlayback::open(path, options)?))
+            Endpoint::Capture { path } => Kind::Capture(Box::new(CapturePlayback::open(path, options)?)),
+            Endpoint::File { path, format } => {
+                format.check_readable(path)?;
+                Kind::Playback(Playback::of_file(path, options)?)
             }
-            Endpoint::File { path, .. } => Kind::Playback(Playback::of_file(path, options)?),
         };
         let endpoint = match &kind {
             Kind::MxtpUdp(source) => source.endpoint(),

@@ -27,6 +27,8 @@ pub struct PlaybackOptions {
     pub duration: Option<Duration>,
     /// Whether a damaged file is used up to the damage; a capture always is.
     pub salvage: bool,
+    /// Whether what a take lacks is computed from its poses: velocities, angles, the centre of mass.
+    pub computes: bool,
     /// Of a capture: which source, by its number or a part of its name. It may be left out where there is one.
     pub only: Option<String>,
     /// Of a capture: begin so long after its first datagram.
@@ -38,7 +40,7 @@ pub struct PlaybackOptions {
 }
 
 impl Default for PlaybackOptions {
-    /// Every sample, once, at the recorded pace.
+    /// Every sample, once, at the recorded pace, with what can be computed.
     fn default() -> Self {
         Self {
             rate_hz: None,
@@ -46,6 +48,7 @@ impl Default for PlaybackOptions {
             looped: false,
             duration: None,
             salvage: false,
+            computes: true,
             only: None,
             from: Duration::ZERO,
             until: None,
@@ -121,7 +124,8 @@ pub(super) struct Playback {
 
 impl Playback {
     pub(super) fn of_file(path: &Path, options: &PlaybackOptions) -> Result<Self> {
-        Self::new(Box::new(TakeFile::open(path, options.salvage)?), options)
+        let take = TakeFile::open(path, options.salvage, options.computes)?;
+        Self::new(Box::new(take), options)
     }
 
     pub(super) fn of_walk(walk: &endpoint::Walk, options: &PlaybackOptions) -> Result<Self> {

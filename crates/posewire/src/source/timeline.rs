@@ -2,6 +2,7 @@
 
 use crate::clock::Clock;
 use posewire_motion::Stamp;
+use std::time::Duration;
 
 /// The time that a source goes by: that of the system, or for a capture that is played, when its datagrams came.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +28,15 @@ impl Timeline {
     pub(super) fn steady(&self) -> Stamp {
         match self {
             Self::Live(clock) => clock.steady(),
+            Self::Played(at) => *at,
+        }
+    }
+
+    /// When something with this stamp arrived, on the time that never goes back, at most `longest` ago; what is played comes
+    /// when its time has come.
+    pub(super) fn arrival(&self, stamp: Stamp, longest: Duration) -> Stamp {
+        match self {
+            Self::Live(clock) => clock.arrival(stamp, longest),
             Self::Played(at) => *at,
         }
     }

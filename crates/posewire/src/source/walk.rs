@@ -1,7 +1,7 @@
 //! The built-in walker as a source.
 
 use super::playback::Frames;
-use super::synthetic::{Walk, WalkOptions};
+use super::synthetic::Walk;
 use crate::Result;
 use crate::endpoint;
 use posewire_motion::Frame;
@@ -15,15 +15,8 @@ pub(super) struct Walkers {
 
 impl Walkers {
     pub(super) fn new(walk: &endpoint::Walk) -> Self {
-        let options = WalkOptions {
-            people: walk.people.into(),
-            rate: walk.rate_hz,
-            props: walk.props.into(),
-            fingers: walk.fingers,
-            ..WalkOptions::default()
-        };
         Self {
-            walk: Walk::new(&options),
+            walk: Walk::new(&walk.into()),
             next: 0,
         }
     }

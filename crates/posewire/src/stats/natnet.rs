@@ -16,6 +16,7 @@ use super::arrivals::Arrivals;
 use super::{
     Clock, Counters, DatagramKind, Latencies, ModelCounts, ServerStatistics, Statistics, SubjectStatistics, Tracking,
 };
+use crate::endpoint::NatNetAddress;
 use crate::histogram::DurationHistogram;
 
 /// Counts what arrives from a NatNet server, besides what the client counts.
@@ -29,7 +30,10 @@ pub(crate) struct NatNetTally {
     quirks: BTreeMap<posewire_natnet::Quirk, u64>,
     server: Option<(SocketAddr, ServerInfo)>,
     version: Version,
+    better: Option<NatNetAddress>,
     model: Option<ModelCounts>,
+    /// The server's clock as it was last known.
+    clock: Option<Clock>,
     params: Option<FrameParams>,
     arrivals: Arrivals,
     camera_to_host: DurationHistogram,
@@ -77,7 +81,9 @@ impl NatNetTally {
             quirks: BTreeMap::new(),
             server: None,
             version: Version::UNSPECIFIED,
+            better: None,
             model: None,
+            clock: None,
             params: None,
             arrivals: Arrivals::default(),
             camera_to_host: DurationHistogram::new(),
@@ -100,7 +106,16 @@ impl NatNetTally {
 
     pub(crate) fn connected(&mut self, server: SocketAddr, info: ServerInfo) {
         self.version = info.server.natnet_version;
+        let frequency = |info: &ServerInfo| info.connection.map(|connection| connection.clock_frequency);
+        let is_known = |(at, known): &(SocketAddr, ServerInfo)| *at == server && frequency(known) == frequency(&info);
+        let was_known = self.server.as_ref().is_some_and(is_known);
+        self.clock = self.clock.filter(|_| was_known);
         self.server = Some((server, info));
+    }
+
+    /// The endpoint to use instead.
+    pub(crate) fn better(&mut self, better: Option<NatNetAddress>) {
+        self.better = better;
     }
 
     /// Whether no server has said yet who it is.
@@ -179,7 +194,8 @@ impl NatNetTally {
         let unknown = || (self.frames > 0).then(|| (link.server, ServerInfo::default()));
         let (address, info) = self.server.clone().or_else(unknown)?;
         let counters = self.counters(client.counts());
-        let clock = client.clock(link.steady);
+        let clock = client.clock(link.steady).map(|estimate| utc_clock(&estimate, link));
+        self.clock = clock.or(self.clock);
         let has = |bits| self.params.map(|params| params.contains(bits));
         Some(Box::new(ServerStatistics {
             name: info.server.name.to_string(),
@@ -193,10 +209,12 @@ impl NatNetTally {
             recording: has(FrameParams::RECORDING),
             edit_mode: has(FrameParams::EDIT_MODE),
             frames: self.arrivals.report(DatagramKind::NatNetFrame, counters, ended),
-            clock: clock.map(|estimate| utc_clock(&estimate, link)),
+            clock: self.clock,
             latencies: self.latency_summaries(),
             model: self.model,
             left_out,
+            refused: client.counts().refused,
+            better: self.better.clone(),
         }))
     }
 
@@ -262,6 +280,7 @@ impl Heard {
             segments,
             tracked: if self.latest == frames { self.tracked } else { 0 },
             frames_untracked: (frames - self.before).saturating_sub(self.whole),
+            awaited: self.latest == 0,
         };
         SubjectStatistics {
             subject: Arc::clone(&self.subject),
@@ -342,12 +361,14 @@ mod tests {
         next(&mut tally);
         next(&mut tally);
         tally.subject(&body);
+        assert!(tracking(&tally).awaited);
         sample.position = vec![Some(DVec3::ZERO)];
         tally.sample(&sample);
         let whole = Tracking {
             segments: 1,
             tracked: 1,
             frames_untracked: 0,
+            awaited: false,
         };
         assert_eq!(tracking(&tally), whole);
         next(&mut tally);

@@ -7,6 +7,7 @@ use posewire_natnet::Version;
 use posewire_natnet::client::Mode;
 
 use super::StreamStatistics;
+use crate::endpoint::NatNetAddress;
 use crate::histogram::Summary;
 
 /// What a NatNet server says, and how its frames arrive.
@@ -42,6 +43,10 @@ pub struct ServerStatistics {
     pub edit_mode: Option<bool>,
     /// Bodies, skeletons and bones of all frames that could not be made motion.
     pub left_out: u64,
+    /// Frames that came after the connection was lost and before the server had answered again, and could not be read.
+    pub refused: u64,
+    /// The endpoint to use, when the server says that it sends its frames another way than is expected.
+    pub better: Option<NatNetAddress>,
 }
 
 /// A server's clock against ours.

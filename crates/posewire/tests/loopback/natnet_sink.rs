@@ -247,6 +247,42 @@ fn who_listens_at_the_data_port_gets_a_copy() {
     assert!(matches!(message, Message::Frame(frame) if frame.number == 7));
 }
 
+/// Other systems refuse a second socket at a port, or do not say which of the two gets what comes.
+#[cfg(target_os = "linux")]
+#[test]
+fn who_listens_at_the_data_port_of_the_servers_machine_shares_it() {
+    use socket2::{Domain, Socket, Type};
+
+    let sink = NatNetSink::open(
+        &address("natnet://0.0.0.0:0?data-port=0&copy=true"),
+        NatNetSinkOptions::default(),
+    );
+    let mut sink = sink.unwrap();
+    let listening = Socket::new(Domain::IPV4, Type::DGRAM, None).unwrap();
+    listening.set_reuse_address(true).unwrap();
+    let data_port = address(&target(&sink).endpoint).data_port;
+    listening
+        .bind(&SocketAddr::from(([0, 0, 0, 0], data_port)).into())
+        .unwrap();
+    let listening = UdpSocket::from(listening);
+    listening.set_read_timeout(Some(PATIENCE)).unwrap();
+    let _client = Peer::connect(place(&sink), Version::new(4, 1));
+    send(&mut sink, person(&ada(0), 7));
+    let mut buffer = vec![0; 65_535];
+    let length = listening.recv(&mut buffer).unwrap();
+    let (message, _) = Message::decode(Version::new(4, 1), &buffer[..length]).unwrap();
+    assert!(matches!(message, Message::Frame(frame) if frame.number == 7));
+}
+
+#[test]
+fn a_sink_that_is_dropped_frees_its_ports() {
+    let sink = open("");
+    let url = target(&sink).endpoint;
+    drop(sink);
+    let again = NatNetSink::open(&address(&url), NatNetSinkOptions::default());
+    assert!(again.is_ok(), "{url}");
+}
+
 #[test]
 fn subjects_of_one_sample_come_in_one_frame() {
     let mut sink = open("");

@@ -165,6 +165,7 @@ impl NatNetHeaderRecord {
 struct BitstreamRecord {
     version: String,
     given: bool,
+    by: &'static str,
     alike: Vec<String>,
     otherwise: Vec<String>,
 }
@@ -173,12 +174,17 @@ impl BitstreamRecord {
     fn of(bitstream: &Bitstream) -> Self {
         let texts = |versions: &[Version]| versions.iter().map(ToString::to_string).collect();
         let (alike, otherwise) = match &bitstream.origin {
-            Origin::Fits { alike, otherwise } => (texts(alike), texts(otherwise)),
+            Origin::Fits { alike, otherwise, .. } => (texts(alike), texts(otherwise)),
             _ => (Vec::new(), Vec::new()),
         };
         Self {
             version: bitstream.version.to_string(),
             given: bitstream.origin == Origin::Given,
+            by: match bitstream.origin {
+                Origin::Given => "version",
+                Origin::Stated => "server",
+                Origin::Fits { .. } | Origin::FitsNone => "bytes",
+            },
             alike,
             otherwise,
         }

@@ -86,7 +86,7 @@ fn told_by(bytes: &[u8]) -> Option<Protocol> {
     }
 }
 
-fn packets(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
+fn packets(bytes: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
     natnet::Parts::of(bytes).filter_map(|part| match part {
         Part::Datagram { bytes, .. } => Some(bytes),
         Part::Skipped { .. } => None,

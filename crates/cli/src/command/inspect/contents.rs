@@ -2,7 +2,9 @@
 
 use super::input::TakeFile;
 use super::sections;
-use super::survey::{Event, Instants, Missing, Survey};
+use super::survey::{Event, Instants, Survey};
+use super::verify::Verification;
+use posewire_motion::kinematics::check::Runs;
 use posewire_motion::{Segment, SegmentKind, Skeleton};
 use posewire_mvnx::{CalibrationKind, FrameCounts, Header, SectionInfo};
 use serde::Serialize;
@@ -29,7 +31,7 @@ pub(super) struct Contents {
     pub(super) first: Option<SampleRecord>,
     pub(super) last: Option<SampleRecord>,
     pub(super) duration_s: Option<f64>,
-    pub(super) missing_samples: Missing,
+    pub(super) missing_samples: RunsRecord,
     pub(super) out_of_order: u64,
     pub(super) calibration: Vec<&'static str>,
     pub(super) segments: Vec<SegmentRecord>,
@@ -47,6 +49,17 @@ pub(super) struct Contents {
     /// Whether the file was read to its end.
     pub(super) complete: bool,
     pub(super) damage: Option<String>,
+    /// With `--verify` only.
+    pub(super) verification: Option<Verification>,
+}
+
+/// Runs of samples.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct RunsRecord {
+    pub(super) count: u64,
+    /// The first and the last number of each run; the first runs only.
+    pub(super) runs: Vec<[u32; 2]>,
+    pub(super) runs_left_out: u64,
 }
 
 #[derive(Debug, Serialize)]
@@ -129,8 +142,8 @@ impl Contents {
             first: survey.first.map(SampleRecord::of),
             last: survey.last.map(SampleRecord::of),
             duration_s: subject.rate.and_then(|rate| survey.duration(rate)),
-            missing_samples: survey.missing.clone(),
-            out_of_order: survey.out_of_order,
+            missing_samples: RunsRecord::of(survey.dropouts.missing()),
+            out_of_order: survey.dropouts.out_of_order(),
             calibration: calibration(file),
             segments: skeleton
                 .segments
@@ -162,6 +175,20 @@ impl Contents {
             unknown_frames: unknown_frames(file.reader.counts()),
             complete: survey.complete && damage.is_none(),
             damage: damage.map(ToString::to_string),
+            verification: survey
+                .verifier
+                .as_ref()
+                .map(|verifier| Verification::of(verifier, survey, skeleton)),
+        }
+    }
+}
+
+impl RunsRecord {
+    pub(super) fn of(runs: &Runs) -> Self {
+        Self {
+            count: runs.count,
+            runs: runs.runs.clone(),
+            runs_left_out: runs.left_out,
         }
     }
 }
@@ -248,7 +275,7 @@ fn worst_gap(skeleton: &Skeleton, survey: &Survey) -> Option<WorstGap> {
     })
 }
 
-fn segment_name(skeleton: &Skeleton, place: usize) -> String {
+pub(super) fn segment_name(skeleton: &Skeleton, place: usize) -> String {
     skeleton
         .segments
         .get(place)

@@ -45,7 +45,7 @@ impl TakeFile {
         if let Some(error) = wrong_name.filter(|_| !may_be_take) {
             return Err(error.into());
         }
-        let reader = Reader::new(bytes).map_err(|error| posewire::Error::take(path, error))?;
+        let reader = Reader::new(bytes).map_err(|error| posewire::Error::take(path, error, 0))?;
         Ok(Self {
             path: path.to_owned(),
             size,
@@ -58,7 +58,7 @@ impl TakeFile {
     /// The next frame, `None` at the end.
     pub(super) fn next_frame(&mut self) -> posewire::Result<Option<Frame>> {
         let frame = self.reader.next().transpose();
-        frame.map_err(|error| posewire::Error::take(&self.path, error))
+        frame.map_err(|error| posewire::Error::take(&self.path, error, self.reader.counts().normal))
     }
 
     /// How far it was read, in one line.

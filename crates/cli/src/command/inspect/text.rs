@@ -1,7 +1,7 @@
 //! What a take holds, for people.
 
-use super::contents::{Contents, SampleRecord, SectionRecord};
-use super::sections;
+use super::contents::{Contents, RunsRecord, SampleRecord, SectionRecord};
+use super::{sections, verify};
 use crate::plain::{cut, grouped, plural, printable};
 use std::io::{self, Write};
 
@@ -14,12 +14,16 @@ pub(super) fn write(contents: &Contents, out: &mut impl Write) -> io::Result<()>
     page.write_sections(contents)?;
     page.write_gaps(contents)?;
     page.write_events(contents)?;
-    page.write_unknown(contents)
+    page.write_unknown(contents)?;
+    match &contents.verification {
+        Some(verification) => verify::write(verification, &mut page),
+        None => Ok(()),
+    }
 }
 
 /// Rows of a label and what belongs to it, never wider than the page.
-struct Page<'a, W> {
-    out: &'a mut W,
+pub(super) struct Page<'a, W> {
+    pub(super) out: &'a mut W,
 }
 
 impl<W: Write> Page<'_, W> {
@@ -166,7 +170,7 @@ impl<W: Write> Page<'_, W> {
         }
     }
 
-    fn begin(&mut self, title: &str) -> io::Result<()> {
+    pub(super) fn begin(&mut self, title: &str) -> io::Result<()> {
         writeln!(self.out, "\n{title}")
     }
 
@@ -188,7 +192,7 @@ impl<W: Write> Page<'_, W> {
     }
 
     /// A text that may have several lines and is broken at words.
-    fn row(&mut self, label: &str, text: &str) -> io::Result<()> {
+    pub(super) fn row(&mut self, label: &str, text: &str) -> io::Result<()> {
         let mut label = label;
         for line in text.lines() {
             for line in wrap(printable(line).split(' ').map(str::to_owned), " ") {
@@ -231,10 +235,14 @@ fn times_of_day(of: &Contents) -> Option<String> {
 }
 
 fn missing(of: &Contents) -> String {
-    let missing = &of.missing_samples;
-    if missing.count == 0 {
-        return "none".to_owned();
+    match of.missing_samples.count {
+        0 => "none".to_owned(),
+        _ => runs(&of.missing_samples),
     }
+}
+
+/// How many samples there are in runs, and which: `2 samples: 6-7`.
+pub(super) fn runs(of: &RunsRecord) -> String {
     let run = |[first, last]: &[u32; 2]| {
         if first == last {
             first.to_string()
@@ -242,14 +250,14 @@ fn missing(of: &Contents) -> String {
             format!("{first}-{last}")
         }
     };
-    let runs: Vec<_> = missing.runs.iter().take(SHOWN_RUNS).map(run).collect();
-    let more = (missing.runs.len() - runs.len()) as u64 + missing.runs_left_out;
+    let runs: Vec<_> = of.runs.iter().take(SHOWN_RUNS).map(run).collect();
+    let more = (of.runs.len() - runs.len()) as u64 + of.runs_left_out;
     let more = if more > 0 {
         format!(", and {}", plural(more, "more run"))
     } else {
         String::new()
     };
-    format!("{}: {}{more}", plural(missing.count, "sample"), runs.join(", "))
+    format!("{}: {}{more}", plural(of.count, "sample"), runs.join(", "))
 }
 
 fn segments(of: &Contents) -> String {

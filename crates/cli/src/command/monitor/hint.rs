@@ -49,6 +49,14 @@ fn is_anybody(address: &NatNetAddress) -> bool {
     matches!(&address.host, Host::Address(ip) if ip.is_unspecified() || ip.to_string() == "255.255.255.255")
 }
 
+/// Whether a host is this machine, as only this machine calls it.
+fn is_loopback(host: &Host) -> bool {
+    match host {
+        Host::Address(ip) => ip.is_loopback(),
+        Host::Name(name) => name == "localhost",
+    }
+}
+
 /// What has come and cannot be read, and what to check.
 fn unreadable(endpoint: &Endpoint, all: &Statistics) -> String {
     let what = match &all.last_malformed {
@@ -76,7 +84,11 @@ fn of_nobody(endpoint: &Endpoint, address: &NatNetAddress) -> String {
     } else {
         (
             format!("no answer from {endpoint} yet"),
-            "the address after natnet://, not Loopback",
+            if is_loopback(&address.host) {
+                "Loopback, as natnet://HOST names this machine"
+            } else {
+                "the address after natnet://, not Loopback"
+            },
         )
     };
     format!(
@@ -110,11 +122,18 @@ fn of_server(address: &NatNetAddress, all: &Statistics) -> String {
         );
     }
     if server.frames.counters.received > 0 {
+        let what = match server.model {
+            Some(model) if model.marker_sets > 0 => "only marker sets",
+            _ => "nothing",
+        };
         return format!(
-            "frames come from {name}, with nothing in them. Check that in Motive\n\
+            "frames come from {name}, with {what} in them. Check that in Motive\n\
              - Rigid Bodies, Skeletons or Labeled Markers are on in Settings > Streaming\n\
              - the assets are ticked in the Assets pane, and something is in view"
         );
+    }
+    if let Some(better) = &server.better {
+        return format!("{name} answers, but sends its frames another way than is expected here: use\n{better}");
     }
     format!(
         "{name} answers, but no frames come. Check that\n\
@@ -145,7 +164,7 @@ fn of_delivery(address: &NatNetAddress, server: &ServerStatistics) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use posewire::stats::{Counters, DatagramKind, Latencies, StreamStatistics};
+    use posewire::stats::{Counters, DatagramKind, Latencies, ModelCounts, StreamStatistics};
     use posewire_natnet::Version;
 
     fn endpoint(text: &str) -> Endpoint {
@@ -177,6 +196,8 @@ mod tests {
             recording: None,
             edit_mode: None,
             left_out: 0,
+            refused: 0,
+            better: None,
         };
         Statistics {
             server: Some(Box::new(server)),
@@ -212,6 +233,8 @@ mod tests {
             &named,
             &["no answer from", "Broadcast Frame Data", "Local Interface", "UDP 1510"],
         );
+        let here = of(&endpoint("natnet://127.0.0.1"), false, Some(&Statistics::default()));
+        assert_says(&here, &["Local Interface is Loopback"]);
         let anybody = of(&endpoint("natnet://0.0.0.0"), false, None);
         assert_says(&anybody, &["no NatNet server has answered", "natnet://HOST"]);
     }
@@ -223,6 +246,14 @@ mod tests {
             &unicast,
             &["answers, but no frames come", "Transmission Type is Unicast"],
         );
+        let mut known = answering(Mode::Unicast, 0);
+        let Endpoint::NatNet(better) = endpoint("natnet://h?mode=multicast") else {
+            panic!("an address of NatNet");
+        };
+        known.server.as_mut().unwrap().better = Some(better);
+        let known = of(&endpoint("natnet://h"), false, Some(&known));
+        assert_says(&known, &["another way", "natnet://h:1510?mode=multicast"]);
+        assert!(!known.contains("Check"), "{known}");
         let group = of(
             &endpoint("natnet://h?mode=multicast"),
             false,
@@ -238,6 +269,13 @@ mod tests {
     fn empty_frames_and_unreadable_ones_are_told_apart() {
         let empty = of(&endpoint("natnet://h"), false, Some(&answering(Mode::Unicast, 9)));
         assert_says(&empty, &["nothing in them", "Rigid Bodies", "Assets pane"]);
+        let mut sets = answering(Mode::Unicast, 9);
+        sets.server.as_mut().unwrap().model = Some(ModelCounts {
+            marker_sets: 1,
+            ..ModelCounts::default()
+        });
+        let sets = of(&endpoint("natnet://h"), false, Some(&sets));
+        assert_says(&sets, &["with only marker sets", "Rigid Bodies"]);
         let mut unread = answering(Mode::Unicast, 0);
         unread.last_malformed = Some("found \u{1b}".to_owned());
         unread.server.as_mut().unwrap().frames.counters.malformed = 4;

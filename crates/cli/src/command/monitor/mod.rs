@@ -63,7 +63,7 @@ fn refuse_playback(arguments: &Monitor, source: &Source) -> Result<(), Usage> {
 /// What neither is live nor was is not monitored.
 fn refuse_takes(endpoint: &Endpoint) -> Result<(), Usage> {
     let help = match endpoint {
-        Endpoint::File { format, .. } if format.is_capture() => return Ok(()),
+        Endpoint::Capture { .. } => return Ok(()),
         Endpoint::File { .. } => format!("posewire inspect {endpoint} says what it holds, posewire stream sends it"),
         Endpoint::Synthetic(_) => "posewire demo shows the walker".to_owned(),
         _ => return Ok(()),
@@ -144,7 +144,7 @@ fn finish(session: Session, board: &Board, view: View) -> anyhow::Result<End> {
         ));
     }
     Ok(End::with_lost(
-        outcome.dropped + last.map_or(0, |last| last.kernel_dropped),
+        outcome.dropped + last.map_or(0, |last| last.lost_here()),
     ))
 }
 

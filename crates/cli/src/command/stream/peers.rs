@@ -11,10 +11,15 @@ pub(super) struct Peers {
 }
 
 impl Peers {
-    /// The peers of `progress`, of whom nothing is said but when they go.
+    /// The peers of `progress`, of whom nothing is said but when they go. A client has come since the target was opened, which
+    /// is to be told.
     pub(super) fn of(progress: &Progress) -> Self {
+        let mut known = progress.targets.clone();
+        for target in &mut known {
+            target.clients.clear();
+        }
         Self {
-            known: progress.targets.clone(),
+            known,
             left_out: Vec::new(),
         }
     }
@@ -72,11 +77,14 @@ fn change(before: Option<&ClientProgress>, now: &ClientProgress) -> Option<Strin
         "" => now.address.to_string(),
         name => format!("{} ({})", now.address, printable(name)),
     };
+    let came = format!("{who} connected, gets NatNet {}", now.version);
+    // Within one look it has come and gone.
+    let who = if was.is_none() { format!("{came},") } else { who };
     Some(match now.state {
         ClientState::Connected if was.is_some_and(|(state, _)| state == now.state) => {
             format!("{who} now gets NatNet {}", now.version)
         }
-        ClientState::Connected => format!("{who} connected, gets NatNet {}", now.version),
+        ClientState::Connected => came,
         ClientState::Left => format!("{who} left"),
         ClientState::Silent => format!("{who} dropped, as nothing came from it any more"),
     })
@@ -108,9 +116,30 @@ mod tests {
         let gone = client(ClientState::Left, 1);
         assert_eq!(told(Some(&newer), &gone), "10.0.0.2:5000 (ROS) left");
         assert_eq!(
+            told(None, &gone),
+            "10.0.0.2:5000 (ROS) connected, gets NatNet 3.1, left"
+        );
+        assert_eq!(
             told(Some(&gone), &newer),
             "10.0.0.2:5000 (ROS) connected, gets NatNet 3.1"
         );
+    }
+
+    #[test]
+    fn a_client_that_has_come_before_anybody_looked_is_told_of() {
+        let target = TargetProgress {
+            endpoint: "natnet://h".to_owned(),
+            peers: 1,
+            clients: vec![client(ClientState::Connected, 0)],
+            ..TargetProgress::default()
+        };
+        let progress = Progress {
+            targets: vec![target],
+            ..Progress::default()
+        };
+        let peers = Peers::of(&progress);
+        let told: Vec<_> = peers.known.iter().zip(&progress.targets).flat_map(changes).collect();
+        assert_eq!(told, ["natnet://h: 10.0.0.2:5000 (ROS) connected, gets NatNet 3.0"]);
     }
 
     #[test]

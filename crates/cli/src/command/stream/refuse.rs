@@ -1,10 +1,11 @@
 //! What cannot be streamed, found before anything is sent.
 
-use crate::cli::{Capture, Playback};
+use crate::cli::{Capture, Playback, Revision, Stream};
 use crate::error::Usage;
 use posewire::Source;
-use posewire::endpoint::{Endpoint, Host};
+use posewire::endpoint::{Endpoint, Host, NatNetAddress};
 use posewire::sink::MxtpSinkOptions;
+use posewire_natnet::client::Mode;
 
 /// A live stream comes as it comes: options that would be ignored are refused.
 pub(super) fn playback(arguments: &Playback) -> Result<(), Usage> {
@@ -25,7 +26,7 @@ pub(super) fn playback(arguments: &Playback) -> Result<(), Usage> {
 
 /// What is no capture has no sources to choose from.
 pub(in crate::command) fn capture(arguments: &Capture, source: &Endpoint) -> Result<(), Usage> {
-    if matches!(source, Endpoint::File { format, .. } if format.is_capture()) {
+    if matches!(source, Endpoint::Capture { .. }) {
         return Ok(());
     }
     match arguments.given().into_iter().find(|(_, is_given)| *is_given) {
@@ -35,6 +36,35 @@ pub(in crate::command) fn capture(arguments: &Capture, source: &Endpoint) -> Res
             help: format!("leave {option} out"),
         }),
     }
+}
+
+/// Options of MXTP that no target would heed are refused as well.
+pub(super) fn mxtp_options(arguments: &Stream) -> Result<(), Usage> {
+    let given = [
+        ("--types", arguments.types != Stream::TYPES),
+        ("--character", arguments.character != 0),
+        ("--revision", !matches!(arguments.revision, Revision::N)),
+        ("--split", arguments.split.is_some()),
+    ];
+    match given.iter().find(|(_, is_given)| *is_given) {
+        None => Ok(()),
+        Some((option, _)) => Err(Usage {
+            problem: format!("{option} is for MXTP targets, and there is none"),
+            help: format!("leave {option} out, or name an MXTP target with --to"),
+        }),
+    }
+}
+
+/// Only a server that sends to each client has clients to drop.
+pub(super) fn silence(arguments: &Stream, targets: &[&NatNetAddress]) -> Result<(), Usage> {
+    let has_clients = targets.iter().any(|target| target.mode == Mode::Unicast);
+    if arguments.silence.is_none() || has_clients {
+        return Ok(());
+    }
+    Err(Usage {
+        problem: "--silence is for unicast NatNet targets, and there is none".to_owned(),
+        help: "leave --silence out, or name a target such as natnet://0.0.0.0 with --to".to_owned(),
+    })
 }
 
 /// Every subject needs a character number that fits into a byte.

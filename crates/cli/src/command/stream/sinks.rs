@@ -36,12 +36,13 @@ impl Sinks {
                 other => others.push(other.clone()),
             }
         }
+        refuse::silence(arguments, &natnet_addresses)?;
         let mxtp = mxtp_options(arguments, source, &others)?.map(|options| MxtpSinkOptions {
             faults: faults.cloned(),
             ..options
         });
-        let types = mxtp.as_ref().map(|options| options.types);
         let mxtp = mxtp.map(|options| MxtpSink::open(&others, options)).transpose()?;
+        let types = mxtp.as_ref().map(MxtpSink::types);
         let options = NatNetSinkOptions {
             faults: faults.cloned(),
             ..natnet_options(arguments, source)
@@ -92,6 +93,7 @@ impl Handles {
 /// How MXTP is sent, if it is to be.
 fn mxtp_options(arguments: &Stream, source: &Source, targets: &[Endpoint]) -> anyhow::Result<Option<MxtpSinkOptions>> {
     if targets.is_empty() {
+        refuse::mxtp_options(arguments)?;
         return Ok(None);
     }
     let options = MxtpSinkOptions {
@@ -106,6 +108,9 @@ fn mxtp_options(arguments: &Stream, source: &Source, targets: &[Endpoint]) -> an
         fit: is_natnet(source),
         faults: None,
     };
+    if options.fit {
+        types::refuse_unfitted(&arguments.types, options.types)?;
+    }
     refuse::too_many(source, &options)?;
     Ok(Some(options))
 }
@@ -122,9 +127,11 @@ fn natnet_options(arguments: &Stream, source: &Source) -> NatNetSinkOptions {
         let captured = arguments.playback.rate.unwrap_or(preview.rate_hz);
         captured * arguments.playback.speed
     });
+    let usual = NatNetSinkOptions::default();
     NatNetSinkOptions {
         name: arguments.name.clone(),
         rate,
-        ..NatNetSinkOptions::default()
+        silence_limit: arguments.silence.or(usual.silence_limit),
+        faults: None,
     }
 }

@@ -1,7 +1,9 @@
 //! The datagram types that go to MXTP targets.
 
+use crate::cli;
 use crate::context::say;
 use crate::error::Usage;
+use posewire::sink::MxtpSink;
 use posewire::source::Preview;
 use posewire_mxtp::MessageType;
 use posewire_mxtp::motion::{MessageTypes, lacks};
@@ -20,6 +22,17 @@ pub(super) fn choose(text: &str, preview: Option<&Preview>) -> anyhow::Result<Me
         }
     }
     Ok(types)
+}
+
+/// What the subjects of another system never have is refused only when it was asked for by number.
+pub(super) fn refuse_unfitted(text: &str, types: MessageTypes) -> anyhow::Result<()> {
+    if [cli::Stream::TYPES, "all"].contains(&text) {
+        return Ok(());
+    }
+    match MxtpSink::NOT_FITTED.iter().find(|never| types.contains(*never)) {
+        None => Ok(()),
+        Some(never) => Err(cannot_give(never, "nothing of it, as NatNet does not carry it")),
+    }
 }
 
 fn describe(message_type: MessageType) -> String {

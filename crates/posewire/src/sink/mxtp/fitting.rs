@@ -7,6 +7,8 @@ use names::BodyNames;
 use posewire_motion::kinematics::complete;
 use posewire_motion::standard::MAX_PROPS;
 use posewire_motion::{DQuat, DVec3, Frame, Marker, Segment, SegmentKind, Skeleton, Subject};
+use posewire_mxtp::MessageType;
+use posewire_mxtp::motion::MessageTypes;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -16,46 +18,63 @@ use std::sync::Arc;
 /// in which they come. What is not such a skeleton is left out, and said.
 #[derive(Debug, Default)]
 pub(super) struct Fitting {
-    /// By the number that the source gives; `None` for what is no character.
-    fits: BTreeMap<u32, Option<Fit>>,
+    /// By the number that the source gives.
+    seen: BTreeMap<u32, Seen>,
+    /// The characters' numbers, by the number that the source gives. They are kept when it is no character any more.
+    numbers: BTreeMap<u32, u32>,
     left_out: Vec<LeftOut>,
+}
+
+/// A subject as it came last, and the character that it is, if it is one.
+#[derive(Debug)]
+struct Seen {
+    source: Arc<Subject>,
+    fit: Option<Fit>,
 }
 
 /// A character and where its segments come from.
 #[derive(Debug)]
 struct Fit {
-    /// The subject as it came.
-    source: Arc<Subject>,
     character: Arc<Subject>,
     /// For each segment of the character its place in the source's skeleton.
     places: Vec<Option<usize>>,
 }
 
 impl Fitting {
+    /// What fitted frames never hold.
+    pub(super) const NEVER: MessageTypes = MessageTypes::NONE
+        .with(MessageType::LINEAR)
+        .with(MessageType::ANGULAR)
+        .with(MessageType::TRACKERS)
+        .with(MessageType::CENTER_OF_MASS);
+
+    /// Takes the types that fitted frames never fill out of `types`, and tells of it.
+    pub(super) fn new(types: &mut MessageTypes) -> Self {
+        let mut fitting = Self::default();
+        let wanted = *types;
+        for message_type in Self::NEVER.iter().filter(|never| wanted.contains(*never)) {
+            *types = types.without(message_type);
+            let what = format!("datagram type {message_type} ({})", message_type.name());
+            let why = "the source does not carry what it holds";
+            fitting.leave_out(LeftOut { what, why });
+        }
+        fitting
+    }
+
     /// The character that a subject is; `None` for what is none.
     pub(super) fn character(&mut self, subject: &Arc<Subject>) -> Option<Arc<Subject>> {
-        let same = |fit: &Fit| Arc::ptr_eq(&fit.source, subject) || fit.source == *subject;
-        if let Some(known) = self.fits.get(&subject.id)
-            && known.as_ref().is_none_or(same)
-        {
-            return known.as_ref().map(|fit| Arc::clone(&fit.character));
+        let is_same = |seen: &Seen| Arc::ptr_eq(&seen.source, subject) || seen.source == *subject;
+        if !self.seen.get(&subject.id).is_some_and(is_same) {
+            self.look_at(subject);
         }
-        let number = self.number(subject.id);
-        let (fit, left_out) = Fit::of(subject, number);
-        for entry in left_out {
-            if !self.left_out.contains(&entry) {
-                self.left_out.push(entry);
-            }
-        }
-        let character = fit.as_ref().map(|fit| Arc::clone(&fit.character));
-        self.fits.insert(subject.id, fit);
-        character
+        let fit = self.fit(subject.id)?;
+        Some(Arc::clone(&fit.character))
     }
 
     /// A character's frame, with the angles that its poses tell.
     pub(super) fn frame(&mut self, frame: &Frame) -> Option<Frame> {
         self.character(&frame.subject)?;
-        self.fits.get(&frame.subject.id)?.as_ref().map(|fit| fit.frame(frame))
+        self.fit(frame.subject.id).map(|fit| fit.frame(frame))
     }
 
     /// What has been left out so far.
@@ -63,11 +82,29 @@ impl Fitting {
         &self.left_out
     }
 
-    /// The number that the character has already, or else the next.
-    fn number(&self, subject: u32) -> u32 {
-        let known = self.fits.get(&subject).and_then(Option::as_ref);
-        let characters = self.fits.values().flatten().count() as u32;
-        known.map_or(characters, |fit| fit.character.id)
+    fn fit(&self, subject: u32) -> Option<&Fit> {
+        self.seen.get(&subject)?.fit.as_ref()
+    }
+
+    fn look_at(&mut self, subject: &Arc<Subject>) {
+        let next = self.numbers.len() as u32;
+        let number = self.numbers.get(&subject.id).copied().unwrap_or(next);
+        let (fit, left_out) = Fit::of(subject, number);
+        if fit.is_some() {
+            self.numbers.insert(subject.id, number);
+        }
+        for entry in left_out {
+            self.leave_out(entry);
+        }
+        let source = Arc::clone(subject);
+        self.seen.insert(subject.id, Seen { source, fit });
+    }
+
+    /// Tells each thing once, and not without end of a source that always describes something else.
+    fn leave_out(&mut self, entry: LeftOut) {
+        if self.left_out.len() < MOST_TOLD && !self.left_out.contains(&entry) {
+            self.left_out.push(entry);
+        }
     }
 }
 
@@ -94,7 +131,6 @@ impl Fit {
             ..(**subject).clone()
         };
         let fit = Self {
-            source: Arc::clone(subject),
             character: Arc::new(character),
             places,
         };
@@ -191,6 +227,7 @@ fn not_there(what: String) -> LeftOut {
 }
 
 const SHOWN: usize = 4;
+const MOST_TOLD: usize = 256;
 
 #[cfg(test)]
 mod tests;

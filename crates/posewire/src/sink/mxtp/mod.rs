@@ -34,7 +34,8 @@ pub struct MxtpSinkOptions {
     /// A name instead of the subject's own.
     pub name: Option<String>,
     /// Whether subjects are fitted to MVN's skeleton, as those of another system must be: skeletons are recognised by
-    /// the names of their segments, as MVN or Motive has them, and what is no person is left out.
+    /// the names of their segments, as MVN or Motive has them, and what is no person is left out. So are the types of
+    /// [`MxtpSink::NOT_FITTED`].
     pub fit: bool,
     /// What is to go wrong with the datagrams, the same for every target.
     pub faults: Option<FaultPlan>,
@@ -81,15 +82,18 @@ struct Character {
 }
 
 impl MxtpSink {
+    /// The types that fitted subjects never have: nobody else tells velocities, trackers and the centre of mass.
+    pub const NOT_FITTED: MessageTypes = Fitting::NEVER;
+
     /// Opens every target. A TCP target that connects is connected when this returns.
     ///
     /// # Errors
     /// What keeps a target from being opened: an address that is not found, a port in use, a peer that refuses.
     /// [`Error::NotATarget`] for an endpoint that is not MXTP.
-    pub fn open(targets: &[Endpoint], options: MxtpSinkOptions) -> Result<Self> {
+    pub fn open(targets: &[Endpoint], mut options: MxtpSinkOptions) -> Result<Self> {
         let targets = targets.iter().map(Target::open).collect::<Result<Vec<_>>>()?;
         let sink = Self {
-            fitting: options.fit.then(Fitting::default),
+            fitting: options.fit.then(|| Fitting::new(&mut options.types)),
             faults: options.faults.clone().map(LiveFaults::new),
             options,
             only: OnlySource::default(),
@@ -101,7 +105,13 @@ impl MxtpSink {
             next_summary: Instant::now(),
         };
         sink.lock_progress().targets = sink.targets.iter().map(Target::progress).collect();
+        sink.tell_left_out();
         Ok(sink)
+    }
+
+    /// The types that are sent.
+    pub fn types(&self) -> MessageTypes {
+        self.options.types
     }
 
     /// Whether anybody is there to be sent to: not before the first peer has come when all targets listen.

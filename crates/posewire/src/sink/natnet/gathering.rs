@@ -23,6 +23,8 @@ pub(super) struct Gathering {
     begun: Option<Instant>,
     /// Packets taken so far.
     packets: u64,
+    /// Packets in a row that lacked somebody who was awaited.
+    partial: u64,
     /// For each subject, how many packets there were when it was last in one.
     seen: BTreeMap<u32, u64>,
 }
@@ -65,9 +67,18 @@ impl Gathering {
         self.begun.is_some_and(waited)
     }
 
+    /// Whether the packet taken last was one too many that lacked somebody who is there: those who come are numbered each
+    /// for itself. True once.
+    pub(super) fn comes_apart(&self) -> bool {
+        self.partial == PARTIAL_LIMIT
+    }
+
     /// Takes out what is gathered.
     pub(super) fn take(&mut self) -> Vec<Share> {
-        self.packets += u64::from(!self.shares.is_empty());
+        if !self.shares.is_empty() {
+            self.partial = if self.is_complete() { 0 } else { self.partial + 1 };
+            self.packets += 1;
+        }
         self.begun = None;
         std::mem::take(&mut self.shares)
     }
@@ -82,6 +93,8 @@ impl Gathering {
 
 /// In so many packets a subject may be missing before nobody waits for it any more.
 const MISSING_LIMIT: u64 = 8;
+/// So many packets in a row in which somebody was missing are no accident.
+const PARTIAL_LIMIT: u64 = 100;
 
 #[cfg(test)]
 mod tests {
@@ -143,6 +156,27 @@ mod tests {
         let mut gathering = Gathering::default();
         let found = packets(&mut gathering, &[(0, 7), (0, 7)]);
         assert_eq!(found, [[(0, 7)], [(0, 7)]]);
+    }
+
+    #[test]
+    fn subjects_that_are_numbered_apart_are_told_from_one_that_is_missing() {
+        let mut gathering = Gathering::default();
+        (0..2).for_each(|subject| gathering.expect(subject));
+        let mut told = |shares: &[(u32, u32)]| {
+            let told = |share| {
+                packets(&mut gathering, &[share]);
+                gathering.comes_apart()
+            };
+            shares.iter().copied().map(told).filter(|told| *told).count()
+        };
+        let alone: Vec<_> = (0..200).map(|sample| (0, sample)).collect();
+        assert_eq!(told(&alone), 0);
+        let together: Vec<_> = (0..400).map(|place| (place % 2, 1000 + place / 2)).collect();
+        assert_eq!(told(&together), 0);
+        let apart: Vec<_> = (0..400)
+            .map(|place| (place % 2, 5000 + place / 2 + place % 2 * 700))
+            .collect();
+        assert_eq!(told(&apart), 1);
     }
 
     #[test]

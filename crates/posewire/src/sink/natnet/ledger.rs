@@ -12,7 +12,8 @@ pub(super) struct Ledger {
     clients: Vec<ClientProgress>,
     datagrams: u64,
     congested: u64,
-    failed: u64,
+    refused: u64,
+    too_large: u64,
 }
 
 impl Ledger {
@@ -31,7 +32,7 @@ impl Ledger {
         }
         self.clients.push(ClientProgress {
             address,
-            name: sender.map(|sender| sender.name.to_string()).unwrap_or_default(),
+            name: sender.map(name).unwrap_or_default(),
             version,
             state: ClientState::Connected,
             frames: 0,
@@ -57,7 +58,7 @@ impl Ledger {
         match sent {
             Sent::Taken => self.datagrams += 1,
             Sent::NoRoom => self.congested += 1,
-            Sent::Refused => self.failed += 1,
+            Sent::Refused => self.refused += 1,
             // No loss of this side: who has vanished is dropped for its silence.
             Sent::Nobody => {}
         }
@@ -69,12 +70,12 @@ impl Ledger {
 
     /// Enters a frame that no datagram of some version can hold.
     pub(super) fn count_too_large(&mut self) {
-        self.failed += 1;
+        self.too_large += 1;
     }
 
-    /// Whether nothing at all could be sent, though it was tried.
-    pub(super) fn has_only_failed(&self) -> bool {
-        self.failed > 0 && self.datagrams == 0
+    /// Whether the system has refused all that was tried so far.
+    pub(super) fn is_refused(&self) -> bool {
+        self.refused > 0 && self.datagrams == 0
     }
 
     /// How many clients are there now.
@@ -89,7 +90,7 @@ impl Ledger {
             peers: if multicast { 1 } else { self.peers() },
             datagrams: self.datagrams,
             congested: self.congested,
-            failed: self.failed,
+            failed: self.refused + self.too_large,
             dropped: 0,
             clients: self.clients.clone(),
         }
@@ -97,6 +98,14 @@ impl Ledger {
 
     fn find(&mut self, address: SocketAddr) -> Option<&mut ClientProgress> {
         self.clients.iter_mut().find(|client| client.address == address)
+    }
+}
+
+/// What a client calls itself. Those of the vendor's Python sample write `Ping` there, which names nobody.
+fn name(sender: &Sender) -> String {
+    match sender.name.to_string() {
+        ping if ping == "Ping" => String::new(),
+        name => name,
     }
 }
 
@@ -121,6 +130,30 @@ mod tests {
         let progress = ledger.progress("natnet://127.0.0.1", false);
         assert_eq!((progress.datagrams, progress.congested, progress.failed), (1, 1, 0));
         assert_eq!((progress.clients[0].frames, progress.clients[0].dropped), (1, 2));
+    }
+
+    #[test]
+    fn ping_is_no_name() {
+        let mut ledger = Ledger::default();
+        for (port, name) in [(1, "Ping"), (2, "ROS")] {
+            let sender = Sender {
+                name: name.into(),
+                ..Sender::default()
+            };
+            ledger.connected(client(port), Some(&sender), Version::new(4, 1));
+        }
+        let names = ledger.clients.iter().map(|client| client.name.as_str());
+        assert_eq!(names.collect::<Vec<_>>(), ["", "ROS"]);
+    }
+
+    #[test]
+    fn a_frame_that_is_too_large_fails_and_is_not_the_networks_fault() {
+        let mut ledger = Ledger::default();
+        ledger.count_too_large();
+        assert!(!ledger.is_refused());
+        ledger.count(client(1), Sent::Refused);
+        assert!(ledger.is_refused());
+        assert_eq!(ledger.progress("", true).failed, 2);
     }
 
     #[test]

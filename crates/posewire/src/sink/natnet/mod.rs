@@ -162,14 +162,10 @@ impl NatNetSink {
         })
     }
 
-    /// Ends the thread that answers.
-    fn end(&mut self) {
+    /// Ends the thread that answers, and gives how it ended.
+    fn end(&mut self) -> thread::Result<()> {
         self.shared.ending.stop();
-        if let Some(answering) = self.answering.take() {
-            answering
-                .join()
-                .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        }
+        self.answering.take().map_or(Ok(()), JoinHandle::join)
     }
 }
 
@@ -197,14 +193,16 @@ impl Sink for NatNetSink {
     }
 
     fn finish(&mut self) -> Result<()> {
-        self.end();
+        // A panic of the other thread goes on here: it is a defect, not an outcome.
+        self.end().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         self.shared.lock().finish()
     }
 }
 
 impl Drop for NatNetSink {
+    /// Frees the ports, also where the sink was not finished.
     fn drop(&mut self) {
-        self.shared.ending.stop();
+        let _ = self.end();
     }
 }
 
@@ -213,13 +211,10 @@ fn answer(shared: &Shared) {
     let mut buffer = vec![0; LARGEST_DATAGRAM];
     while !shared.ending.is_stopped() {
         let patience = shared.lock().patience();
-        match shared.ports.command.receive(patience, &mut buffer) {
-            Ok(Some((length, from))) => shared.lock().answer(from, buffer.get(..length).unwrap_or_default()),
-            Ok(None) => {}
-            Err(error) => {
-                tracing::warn!(%error, "cannot receive NatNet commands");
-                shared.ending.wait(Duration::from_secs(1));
-            }
+        let answer = |from, bytes: &[u8]| shared.lock().answer(from, bytes);
+        if let Err(error) = shared.ports.receive(patience, &mut buffer, answer) {
+            tracing::warn!(%error, "cannot receive NatNet commands");
+            shared.ending.wait(Duration::from_secs(1));
         }
         if let Err(error) = shared.lock().tend() {
             tracing::warn!(%error, "cannot send a NatNet frame");

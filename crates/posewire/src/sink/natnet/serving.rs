@@ -13,7 +13,7 @@ use crate::{Error, Result};
 use posewire_motion::{Frame, Stamp, Subject};
 use posewire_natnet::client::Mode;
 use posewire_natnet::frame::HostStamps;
-use posewire_natnet::motion::{Encoder, Settings, lacks};
+use posewire_natnet::motion::{Encoder, lacks};
 use posewire_natnet::server::{Delivery, Event, LeftReason, Server, ServerOptions};
 use posewire_natnet::{Output, Socket, Transmit};
 use std::collections::{BTreeMap, BTreeSet};
@@ -49,14 +49,9 @@ pub(super) struct Serving {
 impl Serving {
     pub(super) fn new(address: &NatNetAddress, options: &NatNetSinkOptions, ports: Arc<Ports>) -> Self {
         let opened = NatNetAddress {
-            port: ports.command.local_address().port(),
+            port: ports.local_address().port(),
             data_port: ports.data_port,
             ..address.clone()
-        };
-        let settings = Settings {
-            up: address.up,
-            skeleton: address.skeleton,
-            ..Settings::default()
         };
         let group = (opened.mode == Mode::Multicast).then(|| (opened.group, opened.data_port).into());
         let serving = Self {
@@ -66,7 +61,7 @@ impl Serving {
             states_rate: options.rate.is_some(),
             ports,
             clock: Clock::new(),
-            encoder: Encoder::new(settings),
+            encoder: Encoder::new(address.settings()),
             subjects: BTreeMap::new(),
             gathering: Gathering::default(),
             ledger: Ledger::default(),
@@ -204,14 +199,17 @@ impl Serving {
         if !self.seen.insert(frame.subject.id) {
             return;
         }
-        let mut progress = self.progress.lock().unwrap_or_else(PoisonError::into_inner);
         for what in lacks(frame) {
-            if !progress.left_out.iter().any(|known| known.what == what) {
-                progress.left_out.push(LeftOut {
-                    what: what.to_owned(),
-                    why: "NatNet has no place for it",
-                });
-            }
+            self.leave_out(what, "NatNet has no place for it");
+        }
+    }
+
+    fn leave_out(&self, what: &str, why: &'static str) {
+        let mut progress = self.progress.lock().unwrap_or_else(PoisonError::into_inner);
+        let what = what.to_owned();
+        let entry = LeftOut { what, why };
+        if !progress.left_out.contains(&entry) {
+            progress.left_out.push(entry);
         }
     }
 
@@ -220,6 +218,9 @@ impl Serving {
         let shares = self.gathering.take();
         if shares.is_empty() {
             return Ok(());
+        }
+        if self.gathering.comes_apart() {
+            self.leave_out("frames with everybody in them", NUMBERED_APART);
         }
         let mut frame = self.encoder.frame(shares.iter().map(|share| &*share.frame));
         let due = shares.iter().filter_map(|share| share.due).min();
@@ -231,7 +232,7 @@ impl Serving {
         self.act();
         self.count(&shares);
         match self.group {
-            Some(group) if self.ledger.has_only_failed() => Err(unsendable(group)),
+            Some(group) if self.ledger.is_refused() => Err(unsendable(group)),
             _ => Ok(()),
         }
     }
@@ -242,6 +243,7 @@ impl Serving {
         let due = shares.iter().filter_map(|share| share.due).min();
         let due = due.map(|due| self.clock.stamp_of(due));
         let arrived = shares.iter().filter_map(|share| share.frame.received).max();
+        let arrived = arrived.map(|arrived| self.clock.arrival(arrived, Duration::ZERO));
         let ticks = |stamp: Stamp| self.server.ticks(stamp.min(now));
         HostStamps {
             mid_exposure: due.map_or(0, ticks),
@@ -350,5 +352,7 @@ fn server_options(opened: &NatNetAddress, options: &NatNetSinkOptions) -> Server
     }
 }
 
+const NUMBERED_APART: &str =
+    "the sources number their samples each for itself, so that each person is missing from frames";
 const IDLE: Duration = Duration::from_millis(50);
 const SUMMARISE_EVERY: Duration = Duration::from_millis(100);

@@ -2,6 +2,7 @@
 
 use std::net::SocketAddr;
 
+use posewire_natnet::Version;
 use posewire_natnet::client::{LostReason, Mode};
 use posewire_natnet::command::ServerInfo;
 use posewire_natnet::model::{Description, Model};
@@ -17,22 +18,51 @@ pub(super) fn named(server: SocketAddr, info: &ServerInfo) -> String {
     format!("{name} {app}, NatNet {natnet}, at {server}")
 }
 
-/// What is to be changed in the endpoint when the server says that it sends its frames another way.
-pub(super) fn of_delivery(address: &NatNetAddress, info: &ServerInfo) -> Option<String> {
+/// The endpoint to use when the server says that it sends its frames another way.
+pub(super) fn better(address: &NatNetAddress, info: &ServerInfo) -> Option<NatNetAddress> {
     let connection = info.connection?;
     let mut better = NatNetAddress {
         mode: Mode::Unicast,
+        group: NatNetAddress::GROUP,
         ..address.clone()
     };
-    let says = if connection.is_multicast {
+    if connection.is_multicast {
         better.mode = Mode::Multicast;
         better.group = connection.group;
         better.data_port = connection.data_port;
-        format!("to the group {}:{}", connection.group, connection.data_port)
-    } else {
-        "to each client by itself".to_owned()
+    }
+    (better != *address).then_some(better)
+}
+
+/// The way that the server says it sends its frames, and the endpoint for it.
+pub(super) fn of_delivery(better: &NatNetAddress) -> String {
+    let says = match better.mode {
+        Mode::Multicast => format!("to the group {}:{}", better.group, better.data_port),
+        Mode::Unicast => "to each client by itself".to_owned(),
     };
-    (better != *address).then(|| format!("the server says that it sends {says}: use {better}"))
+    format!("the server says that it sends {says}: use {better}")
+}
+
+/// A server that has not answered, and whose frames do not come either.
+pub(super) fn of_nobody(server: SocketAddr) -> String {
+    format!("no answer from {server} yet, asking on: is Motive streaming, and is that its Local Interface?")
+}
+
+/// What the server sends instead of the version that it was asked for, if it does.
+pub(super) fn of_version(address: &NatNetAddress, sent: Version) -> Option<String> {
+    let wish = address.version.filter(|wish| *wish != sent)?;
+    let why = match address.mode {
+        Mode::Multicast => "as everybody in a group gets the same",
+        Mode::Unicast => "and is read so",
+    };
+    Some(format!(
+        "NatNet {wish} was asked for, but the server sends {sent}, {why}"
+    ))
+}
+
+/// Frames of a server that does not answer are of no known version.
+pub(super) fn of_unread_frames() -> String {
+    "frames come, but no server answers that says their version: name it, as in version=3.1".to_owned()
 }
 
 /// Why the server is lost.
@@ -59,6 +89,13 @@ pub(super) fn of_model(model: &Model) -> Option<String> {
     let found = all.into_iter().filter(|(count, _)| *count > 0);
     let listed: Vec<_> = found.map(|(count, what)| plural(count, what)).collect();
     (!listed.is_empty()).then(|| format!("left out, as they are no motion: {}", listed.join(", ")))
+}
+
+/// Frames in which nothing moves that has a name of its own.
+pub(super) fn of_marker_sets() -> String {
+    "left out: frames hold only marker sets, of which no sample is made; turn on Rigid Bodies, Skeletons or Labeled Markers in \
+     Motive"
+        .to_owned()
 }
 
 fn plural(count: usize, what: &str) -> String {
@@ -99,6 +136,8 @@ mod tests {
     fn a_server_that_sends_another_way_is_answered_with_the_endpoint_that_it_wants() {
         let group = Some(Ipv4Addr::new(239, 1, 1, 1));
         let unicast = address("natnet://h?up=z");
+        let of_delivery =
+            |address: &NatNetAddress, info: &ServerInfo| better(address, info).map(|better| of_delivery(&better));
         let said = of_delivery(&unicast, &info(group)).unwrap();
         let wanted = "natnet://h:1510?mode=multicast&data-port=1600&group=239.1.1.1&up=z";
         assert!(

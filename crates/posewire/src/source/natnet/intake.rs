@@ -7,7 +7,6 @@ use posewire_motion::{Stamp, Subject};
 use posewire_natnet::client::{Answer, Client, ClientOptions, DataSource, Event, Mode, ReceivedFrame};
 use posewire_natnet::command::ServerInfo;
 use posewire_natnet::model::Model;
-use posewire_natnet::motion::Settings;
 use posewire_natnet::{MessageId, Output, Quirks, Transmit};
 use std::net::SocketAddr;
 
@@ -37,14 +36,20 @@ pub(in crate::source) struct Intake<'a> {
     time: Timeline,
     /// When what is taken now was to leave, if it is played.
     due: Option<Instant>,
-    /// The latest time that the client was told; what it is told must not go back.
-    told: Stamp,
+    /// When all that had arrived was last known to have been read.
+    read_until: Stamp,
     /// How the server was last called.
     peer: String,
     silence: Silence,
     left_out: u64,
     begun: Instant,
-    unread_remarked: bool,
+    /// What was last said of a server that has never answered.
+    of_no_answer: Option<String>,
+    /// What was last said of the version that the server sends.
+    of_version: Option<String>,
+    /// What was last said of what the server describes.
+    of_model: Option<String>,
+    told_of_sets: bool,
     reports: Reports,
     outlet: &'a mut Outlet,
 }
@@ -62,42 +67,26 @@ impl<'a> Intake<'a> {
         address: NatNetAddress,
         server: SocketAddr,
     ) -> Self {
-        let told = time.steady();
-        let (listens, senders) = if time.is_live() {
-            (address.mode, address.mode)
-        } else {
-            (Mode::Multicast, Mode::Unicast)
-        };
-        let mut options = ClientOptions::new(server, listens);
-        options.version = address.version;
-        if !time.is_live() {
-            options.lost_after = FOR_EVER;
-        }
-        // Which of the addresses that send to a group is the server's is for `Senders` to say.
-        options.data_source = match listens {
-            Mode::Unicast => DataSource::Server,
-            Mode::Multicast => DataSource::Any,
-        };
-        let settings = Settings {
-            up: address.up,
-            skeleton: address.skeleton,
-            ..Settings::default()
-        };
+        let senders = if time.is_live() { address.mode } else { Mode::Unicast };
+        let options = client_options(&address, server, time);
         let mut intake = Self {
             outbox: Vec::new(),
-            client: Client::new(told, options),
-            naming: Naming::new(settings),
+            client: Client::new(time.steady(), options),
+            naming: Naming::new(address.settings()),
             tally: NatNetTally::new(time.now()),
             senders: Senders::new(senders, server.ip()),
             server,
             time,
             due: None,
-            told,
+            read_until: time.steady(),
             peer: server.to_string(),
             silence: Silence::default(),
             left_out: 0,
             begun: Instant::now(),
-            unread_remarked: false,
+            of_no_answer: None,
+            of_version: None,
+            of_model: None,
+            told_of_sets: false,
             reports: Reports::new(),
             outlet,
             address,
@@ -133,8 +122,13 @@ impl<'a> Intake<'a> {
         if is_frame && !self.is_from_server(from) {
             return false;
         }
-        let now = self.arrival(received.stamp);
-        self.client.handle(now, from, received.bytes);
+        // What was read later can have come earlier: an echo waits in one socket while frames are waited for on the other, and
+        // is no slower for that. Nor are those that have waited while this program was suspended.
+        let arrival = self
+            .time
+            .arrival(received.stamp, self.time.steady().since(self.read_until));
+        self.client.handle(arrival, from, received.bytes);
+        self.silence.note_answer();
         self.settle(received.stamp);
         is_frame
     }
@@ -144,9 +138,20 @@ impl<'a> Intake<'a> {
         self.outlet.push(Item::Notice(notice));
     }
 
+    /// Whether something is to be done about time that has passed. What arrived until then is to be read first: it may
+    /// have waited for as long, in this program's stead.
+    pub(super) fn is_due(&self) -> bool {
+        self.client.timeout().is_some_and(|due| due <= self.time.steady())
+    }
+
+    /// To be called when nothing is left to be read.
+    pub(super) fn note_all_read(&mut self) {
+        self.read_until = self.time.steady();
+    }
+
     /// To be called after each batch: does what is due and hands everything to the sinks. `false` when no sink is left.
     pub(in crate::source) fn tick(&mut self, sockets: Option<&Sockets>) -> bool {
-        let now = self.now();
+        let now = self.time.steady();
         if self.client.timeout().is_some_and(|due| due <= now) {
             self.client.handle_timeout(now);
             self.settle(self.time.now());
@@ -155,7 +160,8 @@ impl<'a> Intake<'a> {
         if let Some(sockets) = sockets {
             self.remark_on_silence(sockets);
         }
-        self.remark_on_unread_frames();
+        self.remark_on_no_answer();
+        self.remark_on_version();
         self.look_for_left_out();
         if self.reports.is_due() {
             self.report(sockets, false);
@@ -228,7 +234,7 @@ impl<'a> Intake<'a> {
                     self.forward(&frame);
                 }
             }
-            Event::Message(text) => tracing::info!(%text, "the server says"),
+            Event::Message(text) => tracing::info!(?text, "the server says"),
             Event::Answer { request, answer } if request == FRAME_RATE => self.rate(&answer),
             Event::Lost(reason) => {
                 self.silence = Silence::default();
@@ -248,12 +254,16 @@ impl<'a> Intake<'a> {
         self.notice(Notice::Connected {
             peer: self.peer.clone(),
         });
-        if let Some(text) = advice::of_delivery(&self.address, &info) {
+        self.silence = Silence::begin();
+        let better = advice::better(&self.address, &info);
+        if let Some(better) = &better {
+            self.silence.note_explained();
+            let text = advice::of_delivery(better);
             self.notice(Notice::Remark { text });
         }
-        self.silence = Silence::begin();
+        self.tally.better(better);
         self.naming.wait();
-        self.client.request(self.told, FRAME_RATE);
+        self.client.request(self.time.steady(), FRAME_RATE);
         self.tally.connected(server, info);
     }
 
@@ -263,7 +273,9 @@ impl<'a> Intake<'a> {
         let subjects = self.naming.all();
         self.tally.model(model, quirks, &subjects);
         self.announce_all();
-        if let Some(text) = advice::of_model(model) {
+        let text = advice::of_model(model).filter(|text| self.of_model.as_ref() != Some(text));
+        if let Some(text) = text {
+            self.of_model = Some(text.clone());
             self.notice(Notice::Remark { text });
         }
     }
@@ -308,8 +320,9 @@ impl<'a> Intake<'a> {
 
     fn forward(&mut self, (received, at): &Arrived) {
         let ReceivedFrame { frame, .. } = received;
-        self.tally.frame(received, *at, self.client.clock(self.told));
+        self.tally.frame(received, *at, self.client.clock(self.time.steady()));
         let mut samples = self.naming.read(frame);
+        self.remark_on_sets(samples.is_empty() && !frame.marker_sets.is_empty());
         for mut sample in samples.drain(..) {
             self.announce(&sample.subject);
             self.tally.sample(&sample);
@@ -320,13 +333,21 @@ impl<'a> Intake<'a> {
         self.naming.reuse(samples);
     }
 
+    /// Says once that there is nothing to show, and to count, of frames with `only_sets` in them.
+    fn remark_on_sets(&mut self, only_sets: bool) {
+        if only_sets && !std::mem::replace(&mut self.told_of_sets, true) {
+            let text = advice::of_marker_sets();
+            self.notice(Notice::Remark { text });
+        }
+    }
+
     /// Bones that no description has, or too many subjects.
     fn look_for_left_out(&mut self) {
         let left_out = self.naming.subjects.left_out();
         if left_out > 0 && self.left_out == 0 {
             let text = "left out: bones that the server does not describe, or subjects beyond 2048".to_owned();
             self.notice(Notice::Remark { text });
-            let now = self.now();
+            let now = self.time.steady();
             self.client.request_model(now);
             self.settle(self.time.now());
         }
@@ -341,12 +362,30 @@ impl<'a> Intake<'a> {
         self.notice(Notice::Remark { text });
     }
 
-    /// Frames of a server that does not answer are of no known version.
-    fn remark_on_unread_frames(&mut self) {
-        let unread = self.client.version().is_none() && self.client.counts().early > 0;
-        if unread && self.begun.elapsed() >= REMARK_AFTER && !std::mem::replace(&mut self.unread_remarked, true) {
-            let text =
-                "frames come, but no server answers that says their version: name it, as in version=3.1".to_owned();
+    /// Says once each what a server is like that has never answered.
+    fn remark_on_no_answer(&mut self) {
+        if !self.tally.is_nameless() || self.begun.elapsed() < REMARK_AFTER {
+            return;
+        }
+        let counts = self.client.counts();
+        let text = match (self.client.version(), counts.early, counts.received) {
+            (None, 1.., _) => advice::of_unread_frames(),
+            (_, 0, 0) => advice::of_nobody(self.server),
+            _ => return,
+        };
+        if self.of_no_answer.as_ref() != Some(&text) {
+            self.of_no_answer = Some(text.clone());
+            self.notice(Notice::Remark { text });
+        }
+    }
+
+    /// Says once that another version comes than was asked for, as soon as that is settled.
+    fn remark_on_version(&mut self) {
+        let is_settled = self.client.server_info().is_some() && self.silence.answers_for(SETTLED_AFTER);
+        let sent = self.client.version().filter(|_| is_settled);
+        let text = sent.and_then(|sent| advice::of_version(&self.address, sent));
+        if let Some(text) = text.filter(|text| self.of_version.as_ref() != Some(text)) {
+            self.of_version = Some(text.clone());
             self.notice(Notice::Remark { text });
         }
     }
@@ -359,31 +398,32 @@ impl<'a> Intake<'a> {
             interface: sockets.map(|sockets| sockets.local().to_string()),
             kernel_dropped: sockets.map_or(0, Sockets::kernel_dropped),
             now: self.time.now(),
-            steady: self.now(),
+            steady: self.time.steady(),
         };
         let left_out = self.naming.subjects.left_out();
         let statistics = self.tally.report(Some(&self.client), left_out, &link, ended);
         self.outlet.push(Item::Statistics(Arc::new(statistics)));
     }
+}
 
-    fn now(&mut self) -> Stamp {
-        self.told = self.told.max(self.time.steady());
-        self.told
+fn client_options(address: &NatNetAddress, server: SocketAddr, time: Timeline) -> ClientOptions {
+    let listens = if time.is_live() { address.mode } else { Mode::Multicast };
+    let mut options = ClientOptions::new(server, listens);
+    options.version = address.version;
+    if !time.is_live() {
+        options.lost_after = FOR_EVER;
     }
-
-    /// When something that the kernel stamped arrived, on the steady clock.
-    fn arrival(&mut self, stamp: Stamp) -> Stamp {
-        let waited = self.time.now().since(stamp).min(LONGEST_WAIT);
-        let waited = i64::try_from(waited.as_nanos()).unwrap_or_default();
-        let arrival = Stamp(self.time.steady().nanoseconds() - waited);
-        self.told = self.told.max(arrival);
-        self.told
-    }
+    // Which of the addresses that send to a group is the server's is for `Senders` to say.
+    options.data_source = match listens {
+        Mode::Unicast => DataSource::Server,
+        Mode::Multicast => DataSource::Any,
+    };
+    options
 }
 
 const FRAME_RATE: &str = "FrameRate";
 /// Longer than any capture, and short enough to be added up.
 const FOR_EVER: Duration = Duration::from_hours(24 * 365 * 10);
 const LISTEN_AFTER: Duration = Duration::from_secs(1);
-/// A stamp that is longer ago is of a clock that was set meanwhile.
-const LONGEST_WAIT: Duration = Duration::from_secs(1);
+/// How long a server may take to grant a version.
+const SETTLED_AFTER: Duration = Duration::from_secs(1);

@@ -20,7 +20,7 @@ use crate::endpoint::{Endpoint, NatNetAddress};
 use crate::net;
 use crate::session::Outlet;
 use crate::stop::Stop;
-use crate::{Notice, Result};
+use crate::{Error, Notice, Result};
 
 /// A NatNet server that is to be connected to.
 #[derive(Debug)]
@@ -39,6 +39,14 @@ enum Place {
 
 impl NatNet {
     pub(super) fn open(address: &NatNetAddress) -> Result<Self> {
+        if address.copy {
+            return Err(Error::Url {
+                url: Endpoint::NatNet(address.clone()).to_string(),
+                part: "copy of a source",
+                expected: "false",
+                found: "true".to_owned(),
+            });
+        }
         let server = net::resolve_first(&address.host, address.port)?;
         let place = if is_anybody(server.ip()) {
             Place::Unknown
@@ -113,10 +121,25 @@ impl Running<'_> {
     /// Takes what comes within `timeout` and does what is due. `false` when no sink is left.
     fn tick(&mut self, timeout: Duration) -> Result<bool> {
         self.receive(timeout)?;
+        if self.intake.is_due() {
+            self.catch_up()?;
+        }
         let goes_on = self.intake.tick(Some(&self.sockets));
         self.send();
         self.listen_elsewhere();
         Ok(goes_on)
+    }
+
+    /// Reads what has arrived before anything is concluded from silence: after a stall of this program, or of the whole
+    /// machine, a server is not gone whose datagrams wait.
+    fn catch_up(&mut self) -> Result<()> {
+        for _ in 0..MOST_BATCHES {
+            if self.receive(Duration::ZERO)? == 0 {
+                break;
+            }
+        }
+        self.intake.note_all_read();
+        Ok(())
     }
 
     fn receive(&mut self, timeout: Duration) -> Result<usize> {
@@ -156,6 +179,9 @@ impl Running<'_> {
         self.intake.finish(Some(&self.sockets));
     }
 }
+
+/// The most that is read at once, so that a flood does not keep us from everything else: more than the system keeps.
+const MOST_BATCHES: usize = 1024;
 
 /// Whether an address stands for whichever server there is.
 fn is_anybody(address: IpAddr) -> bool {

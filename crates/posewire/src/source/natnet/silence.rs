@@ -12,6 +12,10 @@ pub(super) struct Silence {
     since: Option<Instant>,
     /// Since when it answers, or when its last frame came.
     quiet_since: Option<Instant>,
+    /// Since when it answers.
+    connected: Option<Instant>,
+    /// When anything came from it.
+    answered: Option<Instant>,
     told: bool,
     /// Whether its data port was listened at.
     pub(super) listened: bool,
@@ -26,8 +30,20 @@ impl Silence {
         Self {
             since,
             quiet_since: since,
+            connected: since,
+            answered: since,
             ..Self::default()
         }
+    }
+
+    /// Something has come from the server.
+    pub(super) fn note_answer(&mut self) {
+        self.answered = Some(Instant::now());
+    }
+
+    /// People know already why no frame comes.
+    pub(super) fn note_explained(&mut self) {
+        self.told = true;
     }
 
     /// A frame has come.
@@ -35,6 +51,11 @@ impl Silence {
         self.since = None;
         self.quiet_since = self.quiet_since.map(|_| Instant::now());
         self.told = false;
+    }
+
+    /// Whether it has answered for so long.
+    pub(super) fn answers_for(&self, time: Duration) -> bool {
+        self.connected.is_some_and(|since| since.elapsed() >= time)
     }
 
     /// Whether not one frame has come for so long.
@@ -45,7 +66,11 @@ impl Silence {
     /// Whether people are to be told, once of each silence.
     pub(super) fn is_to_be_told(&mut self) -> bool {
         let long = self.quiet_since.is_some_and(|since| since.elapsed() >= REMARK_AFTER);
-        long && !std::mem::replace(&mut self.told, true)
+        // A server that is gone is told of when it is lost.
+        let answers = self
+            .answered
+            .is_some_and(|answered| answered.elapsed() < ANSWERS_WITHIN);
+        long && answers && !std::mem::replace(&mut self.told, true)
     }
 
     /// What to tell them.
@@ -66,3 +91,5 @@ impl Silence {
 
 /// How long nothing may come before people are told.
 pub(super) const REMARK_AFTER: Duration = Duration::from_secs(3);
+/// A server is asked something at least once a second.
+const ANSWERS_WITHIN: Duration = Duration::from_millis(1500);

@@ -25,6 +25,7 @@ mod path;
 mod person;
 mod style;
 
+use crate::endpoint;
 use person::Person;
 use posewire_motion::{Frame, Subject};
 use std::sync::Arc;
@@ -53,6 +54,19 @@ impl Default for WalkOptions {
             props: 0,
             fingers: false,
             seed: 0,
+        }
+    }
+}
+
+impl From<&endpoint::Walk> for WalkOptions {
+    /// Those that an endpoint spells.
+    fn from(walk: &endpoint::Walk) -> Self {
+        Self {
+            people: walk.people.into(),
+            rate: walk.rate_hz,
+            props: walk.props.into(),
+            fingers: walk.fingers,
+            ..Self::default()
         }
     }
 }

@@ -122,6 +122,7 @@ fn statistics_say_who_serves_and_how_long_frames_take() {
         segments: 1,
         tracked: 1,
         frames_untracked: 1,
+        awaited: false,
     };
     assert_eq!(statistics.subjects[0].tracking, Some(wand));
     assert_eq!(statistics.subjects[1].tracking.unwrap().frames_untracked, 0);

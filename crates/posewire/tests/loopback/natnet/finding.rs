@@ -2,8 +2,10 @@
 
 use super::motive::{Motive, Sockets, bodies, of_version};
 use crate::harness::{Gatherer, PATIENCE, Receiver, open};
+use posewire::endpoint::{Endpoint, NatNetAddress};
+use posewire::sink::{NatNetSink, NatNetSinkOptions};
 use posewire::stop::Stop;
-use posewire::{Error, Session};
+use posewire::{Error, Notice, Session, Sink};
 use posewire_natnet::command::{Sender, ServerInfo};
 use posewire_natnet::{Message, MessageId, Packet, Version};
 use std::net::UdpSocket;
@@ -53,6 +55,26 @@ fn the_only_server_is_connected_to() {
     let gathered = receiver.stop();
     assert_eq!(gathered.frames[0].subject.name, "Wand");
     assert_eq!(gathered.server().address, motive.command());
+}
+
+/// Bound to one address, a socket hears no broadcast.
+#[test]
+fn a_sink_at_one_address_is_found_by_a_broadcast() {
+    let Ok(Endpoint::NatNet(address)) = "natnet://127.0.0.1:0?data-port=0".parse() else {
+        panic!()
+    };
+    let mut sink = NatNetSink::open(&address, NatNetSinkOptions::default()).unwrap();
+    let opened = sink.progress().lock().unwrap().targets[0].endpoint.clone();
+    let Ok(Endpoint::NatNet(NatNetAddress { port, .. })) = opened.parse() else {
+        panic!("{opened}")
+    };
+    let receiver = Receiver::start(&format!("natnet://0.0.0.0:{port}?interface=127.0.0.1"));
+    let is_there = |notice: &Notice| matches!(notice, Notice::Connected { .. });
+    receiver
+        .gatherer
+        .wait_until(|gathered| gathered.notices.iter().any(is_there));
+    assert_eq!(receiver.stop().server().address, ([127, 0, 0, 1], port).into());
+    sink.finish().unwrap();
 }
 
 #[test]

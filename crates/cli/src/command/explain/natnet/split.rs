@@ -4,6 +4,7 @@ use crate::command::explain::part::Part;
 use posewire_natnet::Packet;
 
 /// The parts of an input, which together are all of it.
+#[derive(Clone)]
 pub(in crate::command::explain) struct Parts<'a> {
     bytes: &'a [u8],
     /// Where the next part begins.

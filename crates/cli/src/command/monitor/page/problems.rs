@@ -134,6 +134,10 @@ fn of_server(view: &View, server: &Server) -> Vec<Problem> {
         format!("{count} bodies or bones in frames are in no description, and were left out")
     });
     let bad = [gone, untracked].into_iter().flatten().map(|text| (Weight::Bad, text));
+    let refused = counted(says.refused, |count| {
+        format!("{count} frames could not be read: they came before the server had answered again")
+    });
+    let bad = bad.chain(refused.map(|text| (Weight::Bad, text)));
     let odd = left_out.map(|text| (Weight::Odd, text));
     bad.chain(odd).map(|(weight, text)| Problem { weight, text }).collect()
 }

@@ -41,6 +41,15 @@ fn a_body_named_as_mvns_passes_with_props_and_fingers_and_gets_its_angles() {
 }
 
 #[test]
+fn types_that_fitted_frames_never_fill_are_left_out() {
+    let mut types = MessageTypes::DEFAULT;
+    let fitting = Fitting::new(&mut types);
+    assert_eq!(types, MessageTypes::DEFAULT.without(MessageType::CENTER_OF_MASS));
+    let expected = "datagram type 24 (centre of mass): the source does not carry what it holds";
+    assert_eq!(told(&fitting), [expected]);
+}
+
+#[test]
 fn motives_bones_are_found_by_name_and_what_it_lacks_is_said() {
     let bones = [
         "Hip",
@@ -108,4 +117,40 @@ fn what_is_no_person_is_left_out_and_takes_no_number() {
         "markers without a body: MXTP has no place for it",
     ];
     assert_eq!(told(&fitting), expected);
+}
+
+/// Two skeletons under one number: without names as found in frames, and named as MVN's.
+fn nameless_and_named(id: u32) -> [Arc<Subject>; 2] {
+    let standard = Skeleton::standard(0, false);
+    let names: Vec<_> = standard.segments.iter().map(|segment| segment.name.as_str()).collect();
+    [
+        subject(id, "Skeleton 3", &["Bone 1", "Bone 2"]),
+        subject(id, "Ada", &names),
+    ]
+}
+
+#[test]
+fn a_person_whose_names_come_late_is_a_character_from_then_on() {
+    let [nameless, named] = nameless_and_named(0);
+    let mut fitting = Fitting::default();
+    assert_eq!(fitting.frame(&posed(&nameless)), None);
+    assert_eq!(fitting.frame(&posed(&named)).unwrap().subject.id, 0);
+}
+
+#[test]
+fn a_number_is_not_given_twice_when_a_person_is_described_as_something_else() {
+    let [(other, ada), (_, bea), (_, eve)] = [0, 1, 2].map(|id| nameless_and_named(id).into());
+    let mut fitting = Fitting::default();
+    let mut number = |subject| fitting.character(subject).map(|character| character.id);
+    let numbers = [&ada, &bea, &other, &eve, &ada].map(&mut number);
+    assert_eq!(numbers, [Some(0), Some(1), None, Some(2), Some(0)]);
+}
+
+#[test]
+fn what_is_left_out_of_a_source_that_always_changes_is_bounded() {
+    let mut fitting = Fitting::default();
+    for number in 0..1000 {
+        fitting.character(&subject(0, &format!("Wand {number}"), &["Wand"]));
+    }
+    assert_eq!(fitting.left_out().len(), MOST_TOLD);
 }

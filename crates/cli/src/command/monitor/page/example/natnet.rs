@@ -77,6 +77,8 @@ fn server() -> Server {
         recording: Some(false),
         edit_mode: Some(false),
         left_out: 0,
+        refused: 0,
+        better: None,
     };
     let frames = TypeRow {
         kind: DatagramKind::NatNetFrame,
@@ -128,6 +130,7 @@ fn subject(id: u32, name: &str, segments: &[&str], position: Vec<Option<DVec3>>,
         segments: segments.len(),
         tracked,
         frames_untracked: 0,
+        awaited: false,
     };
     Character {
         subject: Arc::clone(&frame.subject),

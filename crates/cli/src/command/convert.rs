@@ -1,0 +1,222 @@
+//! `posewire convert`: takes to the files of other tools.
+
+mod bar;
+mod capture;
+mod datagrams;
+mod plan;
+mod refuse;
+mod report;
+
+use super::End;
+use crate::cli::Convert;
+use crate::context::{self, Stops};
+use crate::error::{self, Failure};
+use crate::json;
+use bar::Bar;
+use plan::{Job, Plan, Source};
+use posewire::endpoint::FileFormat;
+use posewire::file::{ReadOptions, Recording, Saved, WriteOptions, read, rewrite, save};
+use posewire_motion::Section;
+use report::Report;
+use std::path::Path;
+use std::time::Instant;
+
+pub(super) fn run(arguments: &Convert) -> anyhow::Result<End> {
+    if let Some((input, output)) = datagrams::paths(arguments) {
+        return datagrams::run(&input, &output, arguments);
+    }
+    let plan = Plan::of(arguments)?;
+    let stops = context::stops_on_interrupt()?;
+    let (mut takes, mut failed, mut lost) = (0, 0, 0);
+    for job in &plan.jobs {
+        let done = convert(&plan, job, &stops).unwrap_or_else(Done::failed);
+        let alone = plan.jobs.len() == 1 && done.takes.len() == 1;
+        lost += done.lost;
+        takes += done.takes.len();
+        for take in done.takes {
+            match take {
+                Ok(report) => {
+                    lost += u64::from(report.is_damaged());
+                    tell(&report, arguments.json)?;
+                }
+                Err(error) if alone || stops.work.is_stopped() => return Err(error),
+                // The others are converted all the same.
+                Err(error) => {
+                    error::report(&error);
+                    failed += 1;
+                }
+            }
+        }
+    }
+    match failed {
+        0 => Ok(End::with_lost(lost)),
+        _ => Err(Failure {
+            problem: format!("{failed} of {takes} could not be converted"),
+            help: "the reason of each is above; the others are done".to_owned(),
+        }
+        .into()),
+    }
+}
+
+/// What became of an input.
+struct Done {
+    /// What became of each take that it gave.
+    takes: Vec<anyhow::Result<Report>>,
+    /// What of a live stream was lost on this side.
+    lost: u64,
+}
+
+impl Done {
+    /// Of an input that gave no take.
+    fn failed(error: anyhow::Error) -> Self {
+        Self {
+            takes: vec![Err(error)],
+            lost: 0,
+        }
+    }
+}
+
+fn convert(plan: &Plan, job: &Job, stops: &Stops) -> anyhow::Result<Done> {
+    let began = Instant::now();
+    let (takes, lost) = match &job.source {
+        Source::File(path) if plan.passes_through(job) => (vec![pass_through(plan, job, path, stops, began)], 0),
+        Source::File(path) => {
+            let bar = Bar::start("reading", path.display(), &stops.work);
+            let recording = read(path, plan.reading, bar.progress());
+            bar.end();
+            (vec![write(plan, job, None, recording?, stops, began)], 0)
+        }
+        Source::Walk(walk) => {
+            let takes = capture::walk(walk, plan.duration, stops)?;
+            (write_all(plan, job, takes, stops, began), 0)
+        }
+        Source::Live(endpoint) => {
+            let (takes, lost) = capture::live(endpoint, plan.duration, stops)?;
+            (write_all(plan, job, takes, stops, Instant::now()), lost)
+        }
+    };
+    Ok(Done { takes, lost })
+}
+
+/// Writes an MVNX file anew frame by frame.
+fn pass_through(plan: &Plan, job: &Job, path: &Path, stops: &Stops, began: Instant) -> anyhow::Result<Report> {
+    let bar = Bar::start("rewriting", path.display(), &stops.work);
+    let target = job.target(None);
+    let done = rewrite(
+        path,
+        &plan.samples,
+        &target,
+        plan.reading,
+        &plan.writing,
+        bar.progress(),
+    );
+    bar.end();
+    let done = done?;
+    Ok(Report::new(job, done.frames, done.saved, began).damaged(done.damage))
+}
+
+/// Writes the take of every subject, each to a file of its own when there are several.
+fn write_all(
+    plan: &Plan,
+    job: &Job,
+    recordings: Vec<Recording>,
+    stops: &Stops,
+    began: Instant,
+) -> Vec<anyhow::Result<Report>> {
+    let names = plan::distinct_names(&recordings);
+    let several = recordings.len() > 1;
+    let reports = recordings.into_iter().zip(names).map(|(mut recording, name)| {
+        let computed = if job.is_mvnx() {
+            recording.complete(Section::ALL)
+        } else {
+            Vec::new()
+        };
+        let name = several.then_some(name.as_str());
+        let report = write(plan, job, name, recording, stops, began)?;
+        Ok(report.computed(&computed))
+    });
+    reports.collect()
+}
+
+/// Does with a take what was asked for and saves it.
+fn write(
+    plan: &Plan,
+    job: &Job,
+    name: Option<&str>,
+    mut recording: Recording,
+    stops: &Stops,
+    began: Instant,
+) -> anyhow::Result<Report> {
+    recording.cut(&plan.samples)?;
+    let computed = recording.complete(&wanted(job.format, &plan.writing));
+    if let Some(rate) = plan.rate {
+        recording.resample(rate)?;
+    }
+    let saved = save_take(plan, job, name, &recording, stops)?;
+    let frames = recording.take.len() as u64;
+    let report = Report::new(job, frames, saved, began);
+    let report = report.computed(&computed).damaged(recording.damage.take());
+    Ok(report.reordered(recording.reordered))
+}
+
+/// Saves a take. Where a file is there already, one of a stream gets a number into its name: it could not be had again.
+fn save_take(
+    plan: &Plan,
+    job: &Job,
+    name: Option<&str>,
+    recording: &Recording,
+    stops: &Stops,
+) -> posewire::Result<Saved> {
+    let (mut target, mut number) = (job.target(name), 1);
+    loop {
+        let bar = Bar::start("writing", target.path.display(), &stops.work);
+        let saved = save(&target, recording, &plan.writing, bar.progress());
+        bar.end();
+        if !(job.is_live() && matches!(saved, Err(posewire::Error::Exists { .. }))) {
+            return saved;
+        }
+        number += 1;
+        let numbered = name.map_or_else(|| number.to_string(), |name| format!("{name}_{number}"));
+        target = job.target(Some(&numbered));
+    }
+}
+
+/// The sections without which there is nothing to write, or that were asked for by name.
+fn wanted(format: FileFormat, options: &WriteOptions) -> Vec<Section> {
+    match (&options.sections, format) {
+        (Some(sections), _) => sections.clone(),
+        (None, FileFormat::Mot) => vec![Section::JointAngles],
+        _ => Vec::new(),
+    }
+}
+
+fn tell(report: &Report, as_json: bool) -> anyhow::Result<()> {
+    if as_json {
+        json::print(&report.record())?;
+    } else {
+        context::say(report);
+    }
+    Ok(())
+}
+
+impl Plan {
+    /// Whether a file can be written frame by frame as it is read.
+    fn passes_through(&self, job: &Job) -> bool {
+        // Sections asked for by name may have to be computed.
+        job.is_mvnx() && self.rate.is_none() && self.writing.sections.is_none()
+    }
+}
+
+impl Job {
+    fn is_mvnx(&self) -> bool {
+        matches!(self.format, FileFormat::Mvnx | FileFormat::MvnxGz)
+    }
+}
+
+/// How a damaged file is read.
+fn reading(arguments: &Convert) -> ReadOptions {
+    ReadOptions {
+        salvage: arguments.salvage,
+        ..ReadOptions::default()
+    }
+}

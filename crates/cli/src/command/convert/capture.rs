@@ -1,0 +1,77 @@
+//! Takes of what is no file of a take: the walker, live streams, and captures, which are played.
+
+use crate::context::{self, Stops, Teller, end_progress, say, show_progress};
+use crate::error::Failure;
+use crate::plain::plural;
+use posewire::endpoint::{Endpoint, Walk};
+use posewire::file::Recording;
+use posewire::sink::TakeSink;
+use posewire::source::PlaybackOptions;
+use posewire::source::synthetic;
+use posewire::{Session, Sink, Source};
+use posewire_motion::Take;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// The walker's people, for so long by their own clock.
+pub(super) fn walk(walk: &Walk, duration: Option<Duration>, stops: &Stops) -> anyhow::Result<Vec<Recording>> {
+    let walk = synthetic::Walk::new(&walk.into());
+    let seconds = duration.unwrap_or_default().as_secs_f64();
+    let frames = (seconds * walk.rate()).ceil().max(1.0) as u32;
+    let person = |(person, subject)| {
+        let mut take = Take::new(Arc::clone(subject), walk.rate());
+        for sample in 0..frames {
+            if sample % 1024 == 0 && stops.work.is_stopped() {
+                let what = "the walker walked".to_owned();
+                return Err(posewire::Error::Stopped { what }.into());
+            }
+            take.push(&walk.frame(person, sample))?;
+        }
+        Ok(Recording::from(take))
+    };
+    walk.subjects().iter().enumerate().map(person).collect()
+}
+
+/// A live stream until it is stopped or the time is over, or a whole capture: a take for each subject; and how much of it was
+/// lost on this side.
+pub(super) fn live(
+    endpoint: &Endpoint,
+    duration: Option<Duration>,
+    stops: &Stops,
+) -> anyhow::Result<(Vec<Recording>, u64)> {
+    let options = PlaybackOptions {
+        speed: AT_ONCE,
+        ..PlaybackOptions::default()
+    };
+    let source = Source::open(endpoint, &options)?;
+    let verb = if source.is_live() { "receiving from" } else { "playing" };
+    say(format_args!("{verb} {}", source.endpoint()));
+    let stop = stops.begin_capture();
+    context::stop_after(&stop, duration);
+    let (takes, teller) = (TakeSink::default(), Teller::default());
+    let sinks: Vec<Box<dyn Sink>> = vec![Box::new(takes.clone()), Box::new(teller.clone())];
+    let session = Session::start([source], sinks, stop.clone());
+    while !stop.wait(Duration::from_millis(200)) && session.is_running() {
+        let frames = plural(takes.frames() as u64, "frame");
+        show_progress(format_args!("receiving, Ctrl-C ends it: {frames}"));
+    }
+    let outcome = session.wait();
+    end_progress();
+    stops.end_capture();
+    let lost = outcome?.dropped + teller.lost_here();
+    if lost > 0 {
+        say(format_args!("{} were lost on this machine", plural(lost, "datagram")));
+    }
+    let takes = takes.take();
+    if takes.is_empty() {
+        return Err(Failure {
+            problem: format!("nothing came from {endpoint}"),
+            help: "posewire monitor shows what arrives".to_owned(),
+        }
+        .into());
+    }
+    Ok((takes.into_iter().map(Recording::from).collect(), lost))
+}
+
+/// A capture is played as fast as it can be read.
+const AT_ONCE: f64 = 1e6;

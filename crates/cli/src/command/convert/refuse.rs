@@ -1,0 +1,70 @@
+//! Arguments that do not go together, found before anything is read.
+
+use super::plan::{Job, Source};
+use crate::cli::{Convert, OfFormat};
+use crate::error::Usage;
+use posewire::endpoint::FileFormat;
+
+/// A take is read from a file, some of it twice, and a file appears when it is whole: streams can do neither.
+pub(super) fn standard_streams(inputs: &[String], output: &str) -> Result<(), Usage> {
+    if inputs.iter().any(|input| input == "-") {
+        return Err(Usage {
+            problem: "takes are not read from the standard input (-)".to_owned(),
+            help: "name a file; one that is called - is ./-".to_owned(),
+        });
+    }
+    let streams = ["/dev/stdout", "/dev/stderr", "/dev/fd/", "/proc/self/fd/"];
+    if output == "-" || streams.iter().any(|stream| output.starts_with(stream)) {
+        return Err(Usage {
+            problem: format!("takes are not written to the standard output ({output})"),
+            help: "name a file, or a folder with --format; one that is called - is ./-".to_owned(),
+        });
+    }
+    Ok(())
+}
+
+/// Options of one format, where another is written.
+pub(super) fn other_formats(format: FileFormat, given: &OfFormat) -> Result<(), Usage> {
+    use FileFormat::{Bvh, Csv, Mvnx, MvnxGz, Parquet};
+    let options: [(_, _, &[FileFormat]); 5] = [
+        ("--mvnx-version", given.mvnx_version.is_some(), &[Mvnx, MvnxGz]),
+        ("--csv-sheets", given.csv_sheets, &[Csv]),
+        ("--bvh-translations", given.bvh_translations, &[Bvh]),
+        ("--bvh-t-pose", given.bvh_t_pose, &[Bvh]),
+        ("--parquet-micro-units", given.parquet.micro_units, &[Parquet]),
+    ];
+    let ignored = |(_, is_given, formats): &&(_, bool, &[FileFormat])| *is_given && !formats.contains(&format);
+    match options.iter().find(ignored) {
+        None => Ok(()),
+        Some((option, _, formats)) => Err(Usage {
+            problem: format!("{option} is for {}, and {format} is written", formats[0]),
+            help: format!("leave {option} out, or write {}", formats[0]),
+        }),
+    }
+}
+
+/// Options of some sources, where there are none of these.
+pub(super) fn other_sources(arguments: &Convert, jobs: &[Job]) -> Result<(), Usage> {
+    let files = jobs.iter().filter(|job| matches!(job.source, Source::File(_))).count();
+    let options = [
+        (
+            "--duration",
+            arguments.duration.is_some() && files == jobs.len(),
+            "the walker and live streams, and all that is read is files",
+            "cut files with --from and --to",
+        ),
+        (
+            "--salvage",
+            arguments.salvage && files == 0,
+            "files, and none is read",
+            "leave it out",
+        ),
+    ];
+    match options.iter().find(|(_, is_ignored, ..)| *is_ignored) {
+        None => Ok(()),
+        Some((option, _, whose, help)) => Err(Usage {
+            problem: format!("{option} is for {whose}"),
+            help: (*help).to_owned(),
+        }),
+    }
+}
