@@ -375,6 +375,13 @@ pub(crate) struct Inspect {
     #[arg(long)]
     pub(crate) salvage: bool,
 
+    #[command(flatten)]
+    pub(crate) recovery: Recovery,
+}
+
+/// What is done about a recording that was cut off.
+#[derive(Debug, Args)]
+pub(crate) struct Recovery {
     /// Complete a recording that was cut off, by writing it anew with its index.
     #[arg(long)]
     pub(crate) recover: bool,

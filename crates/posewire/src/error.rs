@@ -435,6 +435,7 @@ impl Error {
                 | Self::Format { .. }
                 | Self::WriteOnly { .. }
                 | Self::Fixed { .. }
+                | Self::Exists { .. }
                 | Self::NoSamples { .. }
                 | Self::NewRate { .. }
                 | Self::Feature { .. }

@@ -284,7 +284,7 @@ fn a_live_stream_becomes_a_file_for_each_subject() {
     let mut said = BufReader::new(child.stderr.take().unwrap());
     let mut line = String::new();
     said.read_line(&mut line).unwrap();
-    let endpoint = line.trim_end().strip_prefix("listening on ").unwrap().to_owned();
+    let endpoint = line.trim_end().strip_prefix("receiving from ").unwrap().to_owned();
     let walk = "synthetic:walk?people=2";
     let options = ["--rate", "60", "--duration", "0.5", "--types", "all"];
     let sent = posewire(

@@ -170,7 +170,7 @@ fn what_cannot_be_recorded_is_refused() {
     for (arguments, code, error, help) in [
         (
             &["record", "mxtp://127.0.0.1:0", "-o", "there.mcap"][..],
-            1,
+            2,
             "there.mcap is there already",
             "--overwrite",
         ),

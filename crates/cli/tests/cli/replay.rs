@@ -1,7 +1,7 @@
 //! `posewire replay`, and captures as sources of the other verbs.
 
 use crate::program::{assert_documented, objects, posewire};
-use posewire::capture::PcapWriter;
+use posewire::capture::{Capture, CaptureOptions, PcapWriter};
 use posewire::{Datagram, Wire};
 use posewire_motion::Stamp;
 use posewire_mxtp::body::{Body, TimeCode};
@@ -135,4 +135,30 @@ fn what_is_no_capture_is_refused() {
         "{}",
         ended.err
     );
+}
+
+#[test]
+fn a_capture_becomes_a_recording_and_a_capture_again_with_every_datagram() {
+    let folder = tempfile::tempdir().unwrap();
+    let written = write_capture(&folder.path().join("take.pcapng"), 20, 1);
+    for [from, to] in [["take.pcapng", "take.mcap"], ["take.mcap", "again.pcapng"]] {
+        let ended = posewire(folder.path(), &["convert", from, to, "--json"], b"");
+        assert_eq!(ended.code, Some(0), "{}", ended.err);
+        let report = &objects(&ended.out, "capture")[0];
+        assert_documented(report, "capture", &[]);
+        assert_eq!(report["datagrams"], 20);
+    }
+    let again = Capture::open(&folder.path().join("again.pcapng"), &CaptureOptions::default()).unwrap();
+    let again: Vec<_> = again.map(|captured| captured.unwrap().datagram).collect();
+    assert!(
+        again
+            .iter()
+            .map(|datagram| &*datagram.bytes)
+            .eq(written.iter().map(Vec::as_slice))
+    );
+    let times = again.iter().map(|datagram| datagram.received.nanoseconds());
+    assert!(times.eq((0..20).map(|number| 1_700_000_000_000_000_000 + number * 4_000_000)));
+
+    let refused = posewire(folder.path(), &["convert", "take.mcap", "again.pcapng"], b"");
+    assert_eq!(refused.code, Some(2), "{}", refused.err);
 }

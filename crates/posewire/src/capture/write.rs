@@ -28,11 +28,14 @@ impl PcapWriter {
     /// Creates the file: classic pcap when it ends in `.pcap`, else pcapng.
     ///
     /// # Errors
-    /// [`Error::Write`] when it cannot be created, as when it exists and is not to be overwritten.
+    /// [`Error::Exists`] when it is there and is not to be overwritten; [`Error::Write`] when it cannot be created.
     pub fn create(path: &Path, overwrite: bool) -> Result<Self> {
         let mut options = OpenOptions::new();
         options.write(true).create(true).truncate(true).create_new(!overwrite);
-        let failed = |error: io::Error| Error::write(path.display().to_string(), &error);
+        let failed = |error: io::Error| match error.kind() {
+            io::ErrorKind::AlreadyExists => Error::Exists { path: path.to_owned() },
+            _ => Error::write(path.display().to_string(), &error),
+        };
         let file = options.open(path).map_err(failed)?;
         let is_classic = path
             .extension()

@@ -20,7 +20,7 @@ pub(super) fn is_one(path: &Path) -> bool {
 
 /// Only recordings can be recovered.
 pub(super) fn refuse(arguments: &Inspect) -> Result<(), Usage> {
-    if !arguments.recover {
+    if !arguments.recovery.recover {
         return Ok(());
     }
     Err(Usage {
@@ -31,8 +31,8 @@ pub(super) fn refuse(arguments: &Inspect) -> Result<(), Usage> {
 
 pub(super) fn run(arguments: &Inspect) -> anyhow::Result<End> {
     let mut file = arguments.file.as_path();
-    if arguments.recover {
-        let to = arguments.output.as_deref().unwrap_or(file);
+    if arguments.recovery.recover {
+        let to = arguments.recovery.output.as_deref().unwrap_or(file);
         let recovered = recover(file, to)?;
         if recovered.was_complete {
             say(format_args!("{} was complete", file.display()));

@@ -63,7 +63,6 @@ fn refuse_playback(arguments: &Monitor, source: &Source) -> Result<(), Usage> {
 /// What neither is live nor was is not monitored.
 fn refuse_takes(endpoint: &Endpoint) -> Result<(), Usage> {
     let help = match endpoint {
-        Endpoint::Capture { .. } => return Ok(()),
         Endpoint::File { .. } => format!("posewire inspect {endpoint} says what it holds, posewire stream sends it"),
         Endpoint::Synthetic(_) => "posewire demo shows the walker".to_owned(),
         _ => return Ok(()),
