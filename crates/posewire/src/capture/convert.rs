@@ -2,9 +2,12 @@
 
 use super::{Capture, CaptureOptions, Captured, Counts, PcapWriter, Survey};
 use crate::recording::{Writer, WriterOptions};
-use crate::{Result, SourceId};
+use crate::stop::Stop;
+use crate::{Error, Result, SourceId};
+use std::io;
 use std::path::Path;
 use std::sync::Arc;
+use tempfile::TempPath;
 
 /// What became of a capture.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,24 +24,56 @@ pub struct Converted {
 ///
 /// A recording gets the raw datagrams alone; poses come into one when a capture is played to a
 /// [`RecordSink`](crate::sink::RecordSink). Which source a datagram is of is kept between recordings; otherwise it follows from its
-/// addresses.
+/// addresses. The file has a hidden name until it is whole.
 ///
 /// # Errors
-/// Those of [`Survey::of`] and of the writer.
-pub fn convert(from: &Path, to: &Path, overwrite: bool) -> Result<Converted> {
-    let options = CaptureOptions::default();
-    let mut output = Output::create(from, to, overwrite)?;
-    let mut capture = Capture::open(from, &options)?;
+/// Those of [`Survey::of`] and of the writer; [`Error::Exists`] when the file is there and is not to be overwritten, and
+/// [`Error::Stopped`] after `stop`. None of them leaves a file.
+pub fn convert(from: &Path, to: &Path, overwrite: bool, stop: &Stop) -> Result<Converted> {
+    if !overwrite && to.exists() {
+        return Err(Error::Exists { path: to.to_owned() });
+    }
+    let mut capture = Capture::open(from, &CaptureOptions::default())?;
+    let hidden = name_beside(to)?;
+    let mut output = Output::create(from, &hidden)?;
     let mut datagrams = 0;
     for captured in capture.by_ref() {
+        if stop.is_stopped() {
+            let what = "a capture was converted".to_owned();
+            return Err(Error::Stopped { what });
+        }
         output.write(captured?)?;
         datagrams += 1;
     }
     output.finish()?;
+    give_name(hidden, to, overwrite)?;
     Ok(Converted {
         datagrams,
         counts: capture.counts(),
         damage: capture.damage().map(str::to_owned),
+    })
+}
+
+/// A name in the same folder with the same ending, of a file that goes when it gets no other name.
+fn name_beside(path: &Path) -> Result<TempPath> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let ending = path.extension().unwrap_or_default().to_string_lossy();
+    let file = tempfile::Builder::new()
+        .suffix(&format!(".part.{ending}"))
+        .tempfile_in(folder.unwrap_or(Path::new(".")));
+    let file = file.map_err(|error| Error::write(path.display().to_string(), &error))?;
+    Ok(file.into_temp_path())
+}
+
+fn give_name(hidden: TempPath, path: &Path, overwrite: bool) -> Result<()> {
+    let named = if overwrite {
+        hidden.persist(path)
+    } else {
+        hidden.persist_noclobber(path)
+    };
+    named.map_err(|failed| match failed.error.kind() {
+        io::ErrorKind::AlreadyExists => Error::Exists { path: path.to_owned() },
+        _ => Error::write(path.display().to_string(), &failed.error),
     })
 }
 
@@ -49,16 +84,17 @@ enum Output {
 }
 
 impl Output {
-    fn create(from: &Path, to: &Path, overwrite: bool) -> Result<Self> {
+    /// Over the file that has the name.
+    fn create(from: &Path, to: &Path) -> Result<Self> {
         let is_recording = to.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mcap"));
         if !is_recording {
-            return PcapWriter::create(to, overwrite).map(Self::Packets);
+            return PcapWriter::create(to, true).map(Self::Packets);
         }
         // A recording names its sources at the beginning.
         let survey = Survey::of(from, &CaptureOptions::default())?;
         let names: Vec<_> = survey.sources.into_iter().map(|source| source.name).collect();
         let options = WriterOptions {
-            overwrite,
+            overwrite: true,
             ..WriterOptions::default()
         };
         let writer = Writer::create(to, &names, options)?;

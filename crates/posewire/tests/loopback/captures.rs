@@ -119,8 +119,11 @@ fn from_mcap_to_pcapng_and_back_keeps_every_datagram_and_its_time() {
     let folder = tempfile::tempdir().unwrap();
     let [first, packets, last] = ["first.mcap", "take.pcapng", "last.mcap"].map(|name| folder.path().join(name));
     let sent = record_walk("mxtp://127.0.0.1:0", &first);
-    assert_eq!(convert(&first, &packets, false).unwrap().datagrams, sent.len() as u64);
-    convert(&packets, &last, false).unwrap();
+    assert_eq!(
+        convert(&first, &packets, false, &Stop::new()).unwrap().datagrams,
+        sent.len() as u64
+    );
+    convert(&packets, &last, false, &Stop::new()).unwrap();
     assert_eq!(datagrams(&packets), sent);
     assert_eq!(datagrams(&last), sent);
 }

@@ -2,7 +2,7 @@
 
 use crate::cli::Convert;
 use crate::command::End;
-use crate::context::say;
+use crate::context::{self, say};
 use crate::json;
 use crate::plain::plural;
 use posewire::capture;
@@ -23,7 +23,8 @@ pub(super) fn paths(arguments: &Convert) -> Option<(PathBuf, PathBuf)> {
 }
 
 pub(super) fn run(input: &Path, output: &Path, arguments: &Convert) -> anyhow::Result<End> {
-    let done = capture::convert(input, output, arguments.overwrite)?;
+    let stops = context::stops_on_interrupt()?;
+    let done = capture::convert(input, output, arguments.overwrite, &stops.work)?;
     if arguments.json {
         json::print(&Record {
             kind: "capture",

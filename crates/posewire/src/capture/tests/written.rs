@@ -3,6 +3,7 @@
 use super::*;
 use crate::Wire;
 use crate::capture::{PcapWriter, convert};
+use crate::stop::Stop;
 use proptest::prelude::*;
 
 fn datagram(wire: Wire, received: i64, bytes: Vec<u8>) -> Datagram {
@@ -57,8 +58,8 @@ fn from_pcapng_to_pcap_and_back_nothing_is_lost() {
         .map(|number| datagram(Wire::MxtpUdp, i64::from(number) * 4_166_667, mxtp(number, 65_507)))
         .collect();
     write(&first, &sent);
-    assert_eq!(convert(&first, &second, false).unwrap().datagrams, 50);
-    assert_eq!(convert(&second, &third, false).unwrap().damage, None);
+    assert_eq!(convert(&first, &second, false, &Stop::new()).unwrap().datagrams, 50);
+    assert_eq!(convert(&second, &third, false, &Stop::new()).unwrap().damage, None);
     assert_eq!(read_file(&third), sent);
 }
 
