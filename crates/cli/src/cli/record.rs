@@ -1,0 +1,43 @@
+//! The arguments of `posewire record`.
+
+use super::value::seconds;
+use clap::Args;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// Record live streams: every datagram as it came, and the poses in them, into an MCAP file.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  posewire record mxtp://0.0.0.0 -o take.mcap                 until Ctrl-C
+  posewire record mxtp://0.0.0.0 natnet://10.0.0.7 -o take.mcap --duration 60
+  posewire record mxtp+tcp://0.0.0.0 -o take.mcap --split-size 500
+
+What has come is in the file a tenth of a second later. When this program or the machine dies, it can be
+read up to there, and posewire inspect take.mcap --recover completes it. Foxglove and other viewers of
+MCAP show the poses. With --split-size, take-002.mcap follows take.mcap.")]
+pub(crate) struct Record {
+    /// Where to listen, or which NatNet server to connect to; as many as there are systems.
+    #[arg(value_name = "URL", required = true)]
+    pub(crate) urls: Vec<String>,
+
+    /// The file to write; one that is there is left alone.
+    #[arg(long, short, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+
+    /// Stop after so many seconds.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
+    pub(crate) duration: Option<Duration>,
+
+    /// Begin a new file whenever one has about so many megabytes.
+    #[arg(long, value_name = "MB", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    pub(crate) split_size: Option<u64>,
+
+    /// Replace the file if it is there.
+    #[arg(long)]
+    pub(crate) overwrite: bool,
+
+    /// Print JSON: one object a second, and one at the end.
+    #[arg(long)]
+    pub(crate) json: bool,
+}

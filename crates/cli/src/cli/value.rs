@@ -1,0 +1,56 @@
+//! What arguments have for values.
+
+use posewire::file::RATES;
+use posewire_motion::Section;
+use posewire_natnet::Version;
+use std::time::Duration;
+
+/// A time from the beginning on, which may be the beginning.
+pub(super) fn moment(text: &str) -> Result<Duration, String> {
+    let expected = || "expected a number of seconds from 0 on, as in 2.5".to_owned();
+    let seconds = text.parse().map_err(|_| expected())?;
+    Duration::try_from_secs_f64(seconds).map_err(|_| expected())
+}
+
+/// A version of which the layout is known.
+pub(super) fn bitstream(text: &str) -> Result<Version, String> {
+    let [oldest, ..] = Version::LAYOUTS;
+    let is_known = |version: &Version| {
+        let plain = Version::new(version.major, version.minor) == *version;
+        plain && (oldest..=Version::LATEST).contains(version)
+    };
+    let version = text.parse().ok().filter(is_known);
+    version.ok_or_else(|| format!("expected a version from {oldest} to {}", Version::LATEST))
+}
+
+/// The number of a sample, as `inspect` shows it.
+pub(super) fn sample(text: &str) -> Result<u32, String> {
+    text.parse()
+        .map_err(|_| format!("expected the number of a sample, from 0 to {}", u32::MAX))
+}
+
+/// A rate to write at.
+pub(super) fn rate(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(rate) if RATES.contains(&rate) => Ok(rate),
+        _ => Err("expected a rate from 0.001 Hz and below 1,000,000 Hz, as in 120".to_owned()),
+    }
+}
+
+/// The name of a section, in either case.
+pub(super) fn section(text: &str) -> Result<Section, String> {
+    text.trim().to_ascii_lowercase().parse().map_err(|_| {
+        let names: Vec<_> = Section::ALL.iter().map(|section| section.name()).collect();
+        format!("expected the name of a section: {}", names.join(", "))
+    })
+}
+
+pub(super) fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text
+        .parse()
+        .map_err(|_| "expected a number of seconds, as in 2.5".to_owned())?;
+    match Duration::try_from_secs_f64(seconds) {
+        Ok(duration) if !duration.is_zero() => Ok(duration),
+        _ => Err("expected more than 0 seconds".to_owned()),
+    }
+}
