@@ -273,7 +273,6 @@ mod tests {
                 "take.mvn",
                 "take.mvn: the .mvn format is proprietary: export MVNX from MVN",
             ),
-            ("take.bvh", "take.bvh: BVH is not supported yet"),
             (
                 "take.txt",
                 "take.txt: expected a file that ends in .mvnx, .mvnx.gz, .mcap, .pcap or .pcapng, or a URL",

@@ -34,7 +34,7 @@ fn a_file_that_is_there_is_not_overwritten_unasked() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("take.pcapng");
     write(&path, &[]);
-    assert!(matches!(PcapWriter::create(&path, false), Err(Error::Write { .. })));
+    assert!(matches!(PcapWriter::create(&path, false), Err(Error::Exists { .. })));
 }
 
 #[test]
