@@ -159,6 +159,12 @@ fn a_capture_becomes_a_recording_and_a_capture_again_with_every_datagram() {
     let times = again.iter().map(|datagram| datagram.received.nanoseconds());
     assert!(times.eq((0..20).map(|number| 1_700_000_000_000_000_000 + number * 4_000_000)));
 
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        let mode = |name: &str| folder.path().join(name).metadata().unwrap().permissions().mode();
+        assert_eq!(mode("again.pcapng"), mode("take.pcapng"));
+    }
     let refused = posewire(folder.path(), &["convert", "take.mcap", "again.pcapng"], b"");
     assert_eq!(refused.code, Some(2), "{}", refused.err);
 }

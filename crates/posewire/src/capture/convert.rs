@@ -58,9 +58,13 @@ pub fn convert(from: &Path, to: &Path, overwrite: bool, stop: &Stop) -> Result<C
 fn name_beside(path: &Path) -> Result<TempPath> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let ending = path.extension().unwrap_or_default().to_string_lossy();
-    let file = tempfile::Builder::new()
-        .suffix(&format!(".part.{ending}"))
-        .tempfile_in(folder.unwrap_or(Path::new(".")));
+    let suffix = format!(".part.{ending}");
+    let mut builder = tempfile::Builder::new();
+    builder.suffix(&suffix);
+    // As any new file: the system takes away what its mask says.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let file = builder.tempfile_in(folder.unwrap_or(Path::new(".")));
     let file = file.map_err(|error| Error::write(path.display().to_string(), &error))?;
     Ok(file.into_temp_path())
 }

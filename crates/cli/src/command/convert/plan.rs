@@ -202,6 +202,9 @@ impl Source {
                 name[..length].to_owned()
             }
             Self::Walk(_) => "walk".to_owned(),
+            Self::Live(Endpoint::Capture { path }) => {
+                path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+            }
             Self::Live(_) => "live".to_owned(),
         }
     }
