@@ -1,4 +1,5 @@
-//! A take that goes out as NatNet, seen by clients that others wrote: every position right, no frame missing.
+//! A take that goes out as NatNet, seen by clients that others wrote: every position right, and no frame missing but
+//! those that the system dropped at the client's own socket.
 //!
 //! Each client watches for ten seconds, all of them at the same time. What is right, they compute from the take itself.
 
