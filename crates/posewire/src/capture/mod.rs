@@ -43,10 +43,10 @@ mod survey;
 mod unpack;
 mod write;
 
-pub use convert::{Converted, convert};
+pub use convert::{ConvertOptions, Converted, convert};
 pub(crate) use opening::Opening;
 pub(crate) use origin::is_asked;
-pub(crate) use playlist::{Playlist, Selection};
+pub(crate) use playlist::{Due, Playlist, Selection};
 pub use protocol::Protocol;
 pub use survey::{CapturedSource, Survey};
 pub use write::PcapWriter;

@@ -159,10 +159,10 @@ impl Recording {
                 part,
             });
         }
-        if metadata.name == SOURCE_RECORD {
-            if let Some(source) = value("source").and_then(|number| number.parse().ok()) {
-                self.name(source, value("endpoint").cloned());
-            }
+        if metadata.name == SOURCE_RECORD
+            && let Some(source) = value("source").and_then(|number| number.parse().ok())
+        {
+            self.name(source, value("endpoint").cloned());
         }
     }
 
