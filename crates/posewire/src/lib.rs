@@ -43,6 +43,7 @@ pub mod net;
 pub mod pacer;
 pub mod queue;
 pub mod recording;
+pub mod remote;
 pub mod replay;
 mod session;
 pub mod sink;
