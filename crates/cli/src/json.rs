@@ -1,5 +1,6 @@
 //! The JSON that verbs print: one object a line. The field names are an interface, described in docs/json.md.
 
+mod capture;
 mod faults;
 mod frame;
 mod recording;
@@ -9,6 +10,7 @@ mod statistics;
 mod stream;
 mod subject;
 
+pub(crate) use capture::CaptureFileRecord;
 pub(crate) use frame::{FrameRecord, marker_name};
 pub(crate) use recording::{RecordingFileRecord, RecordingRecord};
 pub(crate) use replay::ReplayRecord;

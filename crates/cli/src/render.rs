@@ -1,8 +1,10 @@
 //! Results as people read them.
 
+mod capture;
 mod recording;
 mod server;
 
+pub(crate) use capture::{capture, unread};
 pub(crate) use recording::{losses, recorded, recording, recording_line};
 pub(crate) use server::{delivery, kind, model, unknown_latencies};
 
