@@ -33,6 +33,7 @@
 pub mod capture;
 pub mod clock;
 mod datagram;
+pub mod doctor;
 pub mod endpoint;
 mod error;
 pub mod faults;
