@@ -2,32 +2,27 @@
 
 use super::{Controlled, Status};
 use crate::recording::TakeName;
-use crate::sink::{RecordProgress, Takes};
+use crate::sink::{TakeProgress, Takes};
 use posewire_mxtp::remote::Content;
 
 /// Begins and ends takes as MVN's remote control has its recordings begun and ended.
 pub struct RecordingControl {
     takes: Takes,
-    name: Option<TakeName>,
     /// Hears of each take that has ended.
-    ended: Box<dyn FnMut(&RecordProgress) + Send>,
+    ended: Box<dyn FnMut(&TakeProgress) + Send>,
 }
 
 impl RecordingControl {
     /// Control of these takes; `ended` hears how each went.
-    pub fn new(takes: Takes, ended: Box<dyn FnMut(&RecordProgress) + Send>) -> Self {
-        Self {
-            takes,
-            name: None,
-            ended,
-        }
+    pub fn new(takes: Takes, ended: Box<dyn FnMut(&TakeProgress) + Send>) -> Self {
+        Self { takes, ended }
     }
 }
 
 impl Controlled for RecordingControl {
     fn status(&self) -> Status {
         let progress = self.takes.progress();
-        let file = progress.recording.map(|recording| recording.file);
+        let file = progress.recording.map(|recording| recording.recorded.file);
         let stem = |file: std::path::PathBuf| file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         Status {
             recording: file.and_then(stem),
@@ -39,7 +34,6 @@ impl Controlled for RecordingControl {
 
     fn start_recording(&mut self, name: &TakeName) -> Result<String, String> {
         let file = self.takes.begin(name).map_err(|error| error.to_string())?;
-        self.name = Some(name.clone());
         Ok(format!("records {}", file.display()))
     }
 
@@ -47,7 +41,7 @@ impl Controlled for RecordingControl {
         let ended = self.takes.end().map_err(|error| error.to_string())?;
         let take = ended.ok_or("nothing is being recorded")?;
         (self.ended)(&take);
-        Ok(format!("recorded {}", take.file.display()))
+        Ok(format!("ends {}", take.recorded.file.display()))
     }
 
     fn carry_out(&mut self, request: &Content) -> Result<String, String> {

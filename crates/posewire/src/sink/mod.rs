@@ -14,7 +14,7 @@ pub use natnet::{NatNetSink, NatNetSinkOptions};
 pub use progress::{ClientProgress, ClientState, LeftOut, Progress, TargetProgress};
 pub use record::{RecordOptions, RecordProgress, RecordSink, RecordedSource, RecordedSubject};
 pub use take::TakeSink;
-pub use takes::{Takes, TakesProgress, TakesSink};
+pub use takes::{TakeProgress, Takes, TakesProgress, TakesSink};
 
 use crate::queue::Policy;
 use crate::{Error, Item, Result, SourceId};

@@ -13,7 +13,7 @@ use since::since;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Writes takes of one session into files of a folder, each begun and ended by [`Takes`]; what comes between them is not kept.
 ///
@@ -35,7 +35,7 @@ use std::time::Instant;
 /// let file = takes.begin(&"walk".parse()?)?;
 /// assert!(file.ends_with("walk.mcap"));
 /// let take = takes.end()?.expect("it was begun");
-/// assert_eq!(take.file, file);
+/// assert_eq!(take.recorded.file, file);
 /// stop.stop();
 /// session.wait()?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -51,13 +51,26 @@ pub struct Takes {
     state: Arc<Mutex<State>>,
 }
 
+/// How far a take has come, or how it went.
+#[derive(Clone, Debug)]
+pub struct TakeProgress {
+    /// What was recorded.
+    pub recorded: RecordProgress,
+    /// How long it has lasted.
+    pub lasted: Duration,
+}
+
 /// How far the takes of a session have come.
 #[derive(Clone, Debug, Default)]
 pub struct TakesProgress {
     /// The take that is recorded now.
-    pub recording: Option<RecordProgress>,
+    pub recording: Option<TakeProgress>,
+    /// The one that ended last.
+    pub last: Option<TakeProgress>,
     /// How many were begun.
     pub takes: u32,
+    /// The sources and how many datagrams came from each, in takes and between them, when it last told.
+    pub sources: Vec<(Endpoint, u64)>,
     /// Datagrams and samples of takes that were lost on this machine, of all that were ended and the present one.
     pub lost: u64,
 }
@@ -72,6 +85,7 @@ struct State {
     /// What the queue has dropped.
     dropped: u64,
     take: Option<Take>,
+    last: Option<TakeProgress>,
     takes: u32,
     /// Of takes that were ended.
     lost: u64,
@@ -83,6 +97,7 @@ struct State {
 #[derive(Debug)]
 struct Take {
     sink: RecordSink,
+    begun: Instant,
     /// How the sources were doing when it began.
     statistics: BTreeMap<SourceId, Arc<Statistics>>,
     dropped: u64,
@@ -103,6 +118,7 @@ impl TakesSink {
             statistics: BTreeMap::new(),
             dropped: 0,
             take: None,
+            last: None,
             takes: 0,
             lost: 0,
             owed: false,
@@ -132,25 +148,38 @@ impl Takes {
     ///
     /// # Errors
     /// Why not everything could be written.
-    pub fn end(&self) -> Result<Option<RecordProgress>> {
+    pub fn end(&self) -> Result<Option<TakeProgress>> {
         let take = self.lock().take.take();
         let Some(mut take) = take else { return Ok(None) };
+        let lasted = take.begun.elapsed();
         // The streams do not wait while the file is seen onto the disk.
         let finished = take.sink.finish();
-        let progress = read(&take.sink);
+        let progress = TakeProgress {
+            lasted,
+            ..take.progress()
+        };
         let mut state = self.lock();
-        state.lost += progress.dropped + progress.unwritten + kernel_dropped(&progress);
+        state.lost += progress.recorded.lost();
         state.owed = true;
+        state.last = Some(progress.clone());
         finished.map(|()| Some(progress))
     }
 
     /// How far they have come.
     pub fn progress(&self) -> TakesProgress {
         let state = self.lock();
-        let recording = state.take.as_ref().map(|take| read(&take.sink));
+        let recording = state.take.as_ref().map(Take::progress);
+        let sources = (0..=u16::MAX).map(SourceId).zip(&state.sources);
+        let heard = |(id, endpoint): (SourceId, &Endpoint)| {
+            let statistics = state.statistics.get(&id);
+            let datagrams = statistics.map_or(0, |statistics| statistics.datagrams);
+            (endpoint.clone(), datagrams)
+        };
         TakesProgress {
+            last: state.last.clone(),
             takes: state.takes,
-            lost: state.lost + recording.as_ref().map_or(0, RecordProgress::lost),
+            sources: sources.map(heard).collect(),
+            lost: state.lost + recording.as_ref().map_or(0, |take| take.recorded.lost()),
             recording,
         }
     }
@@ -167,7 +196,7 @@ impl State {
             return Err(Error::Stopped { what });
         }
         if let Some(take) = &self.take {
-            let file = read(&take.sink).file;
+            let file = take.progress().recorded.file;
             return Err(Error::TakeRuns { file });
         }
         let (mut sink, file) = self.create(name)?;
@@ -175,6 +204,7 @@ impl State {
         self.takes += 1;
         self.take = Some(Take {
             sink,
+            begun: Instant::now(),
             statistics: self.statistics.clone(),
             dropped: self.dropped,
         });
@@ -219,12 +249,14 @@ impl State {
     }
 }
 
-fn read(sink: &RecordSink) -> RecordProgress {
-    sink.progress().lock().unwrap_or_else(PoisonError::into_inner).clone()
-}
-
-fn kernel_dropped(progress: &RecordProgress) -> u64 {
-    progress.lost() - progress.dropped - progress.unwritten
+impl Take {
+    fn progress(&self) -> TakeProgress {
+        let progress = self.sink.progress();
+        TakeProgress {
+            recorded: progress.lock().unwrap_or_else(PoisonError::into_inner).clone(),
+            lasted: self.begun.elapsed(),
+        }
+    }
 }
 
 impl Sink for TakesSink {
