@@ -1,6 +1,6 @@
 //! Datagrams that were captured are sources, are replayed, and stay what they are from file to file.
 
-use crate::harness::{Gathered, Gatherer, PATIENCE, Receiver, open, seconds, types};
+use crate::harness::{Gathered, Gatherer, PATIENCE, Receiver, open, play_first, types};
 use posewire::capture::{Capture, CaptureOptions, ConvertOptions, PcapWriter, Protocol, Survey, convert};
 use posewire::endpoint::Endpoint;
 use posewire::recording::{Writer, WriterOptions};
@@ -63,12 +63,12 @@ fn payloads(datagrams: &[Datagram]) -> Vec<&[u8]> {
     datagrams.iter().map(|datagram| &*datagram.bytes).collect()
 }
 
-/// Records a walker of a moment over MXTP.
+/// Records 72 samples of two walkers over MXTP.
 fn record_walk(endpoint: &str, path: &Path) -> Vec<Datagram> {
     let recorder = Recorder::start(open(endpoint).unwrap(), path);
     let sink = MxtpSink::open(std::slice::from_ref(&recorder.endpoint), types("02,12,13,25")).unwrap();
-    let progress = crate::harness::play("synthetic:walk?people=2", &seconds(0.3), sink);
-    recorder.finish(progress.frames as usize)
+    play_first("synthetic:walk?people=2", 144, sink);
+    recorder.finish(144)
 }
 
 fn replay(path: &Path, to: &Endpoint, options: &ReplayOptions) -> Replayed {
@@ -109,7 +109,7 @@ fn a_recording_that_is_replayed_is_recorded_as_the_same_payloads_in_the_same_ord
         let replayed = replay(&first, &recorder.endpoint, &options);
         assert_eq!((replayed.lost(), replayed.damage), (0, None));
         assert_eq!(replayed.datagrams, sent.len() as u64);
-        let again = recorder.finish(2 * 72);
+        let again = recorder.finish(144);
         assert_eq!(payloads(&again), payloads(&sent));
         std::fs::remove_file(first).unwrap();
         std::fs::remove_file(second).unwrap();
@@ -138,7 +138,7 @@ fn a_recording_is_read_as_the_stream_was_with_the_times_of_the_day() {
     let path = folder.path().join("take.mcap");
     let recorder = Recorder::start(open("mxtp://127.0.0.1:0").unwrap(), &path);
     let sink = MxtpSink::open(std::slice::from_ref(&recorder.endpoint), types("02,12,13,25")).unwrap();
-    crate::harness::play("synthetic:walk?people=2", &seconds(0.3), sink);
+    play_first("synthetic:walk?people=2", 144, sink);
     let gatherer = recorder.gatherer.clone();
     recorder.finish(144);
     let live = gatherer.lock().clone();
