@@ -56,8 +56,6 @@ pub enum Check {
     RateOff,
     /// The sender's clock, or ours, made a leap.
     ClockJump,
-    /// The sender's time of day is another than ours.
-    ClocksDiffer,
     /// Frames and descriptions do not go together.
     StaleModel,
     /// Something that is described and not seen.
@@ -72,6 +70,8 @@ pub enum Check {
     NoNetwork,
     /// A body that lies, if its axes are right.
     Lying,
+    /// The sender's time of day is another than ours.
+    ClocksDiffer,
     /// Messages that come in bursts.
     UnevenArrival,
     /// Messages that come twice.
@@ -333,13 +333,6 @@ const TABLE: [Entry; 46] = [
         "Let both clocks be set by NTP or PTP before the capture begins, and not during it.",
     ),
     entry(
-        Check::ClocksDiffer,
-        "clocks-differ",
-        Warning,
-        "Several systems cannot be brought together by their time of day.",
-        "Set both clocks by the same NTP or PTP server.",
-    ),
-    entry(
         Check::StaleModel,
         "stale-model",
         Warning,
@@ -387,6 +380,14 @@ const TABLE: [Entry; 46] = [
         Note,
         "When nobody lies, the up axis of the sender is wrong.",
         "Stand upright and look again.",
+    ),
+    entry(
+        Check::ClocksDiffer,
+        "clocks-differ",
+        Note,
+        "Several systems cannot be brought together by their time of day.",
+        "Nothing, when a recording is played: the time is that of the recording. Otherwise set both clocks by the same NTP or \
+         PTP server.",
     ),
     entry(
         Check::UnevenArrival,

@@ -1,9 +1,10 @@
 //! A source, listened to for a while.
 
+use super::finding::sort;
 use super::neighbours::{OtherPorts, OtherTransport};
 use super::silence::{self, Circumstances};
 use super::system::{Traffic, addresses, taken};
-use super::{Examination, Finding, finding};
+use super::{Check, Examination, Finding};
 use crate::endpoint::Endpoint;
 use crate::queue::Policy;
 use crate::source::PlaybackOptions;
@@ -26,51 +27,73 @@ pub struct Listened {
     pub lost_here: u64,
 }
 
-/// Listens to an endpoint for `duration`, less when `stop` is set, and says what is wrong with it. A capture is read to its
-/// end, as fast as that goes.
+/// An endpoint that is opened to be listened to.
 ///
-/// While it listens to an MXTP port it also holds the same port of the other transport, and, after a silence, MVN's usual
-/// ports, to tell when the sender uses those.
-///
-/// # Errors
-/// Those of [`Source::open`], but for a port that another program has, which is a finding; and what ends the source.
-pub fn listen(endpoint: &Endpoint, duration: Duration, stop: &Stop) -> Result<Listened> {
-    let options = PlaybackOptions {
-        speed: AT_ONCE,
-        ..PlaybackOptions::default()
-    };
-    let source = match Source::open(endpoint, &options) {
-        Ok(source) => source,
-        Err(error) if is_taken(&error) => return Ok(of_taken_port(endpoint, &error)),
-        Err(error) => return Err(error),
-    };
-    let endpoint = captured(&source).unwrap_or_else(|| source.endpoint().clone());
-    let examiner = Examiner(Arc::new(Mutex::new(Examination::new(&endpoint))));
-    let begun = Instant::now();
-    let listener = Listener {
-        endpoint,
-        examiner,
-        is_live: source.is_live(),
-    };
-    let around = listener.run(source, duration, stop)?;
-    Ok(listener.result(begun.elapsed(), &around))
+/// While it is open, an MXTP port is also held by the other transport, and after a second of silence so are MVN's usual ports,
+/// to tell when the sender uses those.
+#[derive(Debug)]
+pub struct Listener {
+    endpoint: Endpoint,
+    opened: Opened,
+}
+
+#[derive(Debug)]
+enum Opened {
+    Source(Box<Source>, Option<OtherTransport>),
+    /// Another program has the port.
+    Taken(Finding),
+}
+
+impl Listener {
+    /// Opens what an endpoint names, as a source does. A port that another program has is a finding and no error. The options
+    /// choose what of a capture is read; their speed does not matter.
+    ///
+    /// # Errors
+    /// All others of [`Source::open`].
+    pub fn open(endpoint: &Endpoint, options: &PlaybackOptions) -> Result<Self> {
+        let options = PlaybackOptions {
+            speed: AT_ONCE,
+            ..options.clone()
+        };
+        match Source::open(endpoint, &options) {
+            Ok(source) => {
+                let endpoint = captured(&source).unwrap_or_else(|| source.endpoint().clone());
+                let other = OtherTransport::open(&endpoint).filter(|_| source.is_live());
+                let opened = Opened::Source(Box::new(source), other);
+                Ok(Self { endpoint, opened })
+            }
+            Err(error) if is_taken(&error) => Ok(Self {
+                opened: Opened::Taken(taken(endpoint, &error)),
+                endpoint: endpoint.clone(),
+            }),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Where it is open, with the port that the system chose if it was 0; of a capture, what was captured.
+    pub fn endpoint(&self) -> &Endpoint {
+        &self.endpoint
+    }
+
+    /// Listens for `duration`, less when `stop` is set, and says what is wrong. A capture is read to its end, as fast as that
+    /// goes.
+    ///
+    /// # Errors
+    /// What ends the source.
+    pub fn listen(self, duration: Duration, stop: &Stop) -> Result<Listened> {
+        match self.opened {
+            Opened::Source(source, other) => Listening::new(self.endpoint, &source).run(*source, other, duration, stop),
+            Opened::Taken(finding) => Ok(Listened {
+                findings: vec![finding],
+                ..Listened::default()
+            }),
+        }
+    }
 }
 
 fn is_taken(error: &Error) -> bool {
-    matches!(
-        error,
-        Error::Socket {
-            kind: ErrorKind::AddrInUse,
-            ..
-        }
-    )
-}
-
-fn of_taken_port(endpoint: &Endpoint, error: &Error) -> Listened {
-    Listened {
-        findings: vec![taken(endpoint, error)],
-        ..Listened::default()
-    }
+    let taken = ErrorKind::AddrInUse;
+    matches!(error, Error::Socket { kind, .. } if *kind == taken)
 }
 
 /// The endpoint that a capture was taken at.
@@ -78,47 +101,56 @@ fn captured(source: &Source) -> Option<Endpoint> {
     source.captured()?.name.parse().ok()
 }
 
-struct Listener {
+/// A listener at work.
+struct Listening {
     endpoint: Endpoint,
     examiner: Examiner,
     is_live: bool,
+    begun: Instant,
 }
 
-impl Listener {
-    /// Listens to the end; gives what else was seen.
-    fn run(&self, source: Source, duration: Duration, stop: &Stop) -> Result<Circumstances> {
+impl Listening {
+    fn new(endpoint: Endpoint, source: &Source) -> Self {
+        Self {
+            examiner: Examiner(Arc::new(Mutex::new(Examination::new(&endpoint)))),
+            endpoint,
+            is_live: source.is_live(),
+            begun: Instant::now(),
+        }
+    }
+
+    fn run(self, source: Source, other: Option<OtherTransport>, duration: Duration, stop: &Stop) -> Result<Listened> {
         let before = Traffic::now();
-        let other_transport = OtherTransport::open(&self.endpoint).filter(|_| self.is_live);
         let mut other_ports = None;
         let session = Session::start([source], vec![Box::new(self.examiner.clone())], stop.clone());
         if self.is_live {
             if !stop.wait(duration.min(QUIET)) && !self.examiner.lock().has_heard() {
-                other_ports = Some(OtherPorts::open(&self.endpoint));
+                other_ports = OtherPorts::open(&self.endpoint);
             }
             stop.wait(duration.saturating_sub(QUIET));
             stop.stop();
         }
         session.wait()?;
         let traffic = Traffic::now().since(&before);
-        Ok(Circumstances {
+        Ok(self.result(&Circumstances {
             to_nobody: traffic.to_nobody,
             packets: traffic.packets,
             addresses: addresses(),
-            other_transport: other_transport.and_then(|other| other.heard()),
+            other_transport: other.and_then(|other| other.heard()),
             elsewhere: other_ports.map(|ports| ports.heard()).unwrap_or_default(),
-        })
+        }))
     }
 
-    fn result(&self, elapsed: Duration, around: &Circumstances) -> Listened {
-        let examination = self.examiner.lock();
+    fn result(&self, around: &Circumstances) -> Listened {
+        let (elapsed, examination) = (self.begun.elapsed(), self.examiner.lock());
         let mut findings = examination.findings();
         let is_mxtp = matches!(self.endpoint, Endpoint::MxtpUdp(_) | Endpoint::MxtpTcp(_));
         if self.is_live && is_mxtp && !examination.has_understood() {
             let is_silent = !examination.has_heard();
             let of_silence = silence::findings(&self.endpoint, elapsed, around).into_iter();
-            findings.extend(of_silence.filter(|finding| is_silent || finding.check != super::Check::NothingArrives));
+            findings.extend(of_silence.filter(|finding| is_silent || finding.check != Check::NothingArrives));
         }
-        finding::sort(&mut findings);
+        sort(&mut findings);
         Listened {
             findings,
             elapsed,
@@ -129,7 +161,7 @@ impl Listener {
 }
 
 /// Feeds an examination.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 struct Examiner(Arc<Mutex<Examination>>);
 
 impl Examiner {

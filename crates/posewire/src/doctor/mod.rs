@@ -1,16 +1,17 @@
 //! Why nothing arrives, or what is wrong with what does.
 //!
-//! [`listen`] opens an endpoint as every source is opened, listens for a while and says what it found; [`examine_system`] says
+//! A [`Listener`] opens an endpoint as every source is opened, listens for a while and says what it found; [`examine_system`] says
 //! who listens where, and what of this machine may be in the way. Each [`Finding`] says what it is, why it matters and what
 //! to do. An [`Examination`] is the part without sockets: it takes items as they come and judges them.
 //!
 //! ```
-//! use posewire::doctor::{Check, listen};
+//! use posewire::doctor::{Check, Listener};
+//! use posewire::source::PlaybackOptions;
 //! use posewire::stop::Stop;
 //! use std::time::Duration;
 //!
-//! let nobody_sends = "mxtp://127.0.0.1:0".parse()?;
-//! let listened = listen(&nobody_sends, Duration::from_millis(50), &Stop::new())?;
+//! let nobody_sends = Listener::open(&"mxtp://127.0.0.1:0".parse()?, &PlaybackOptions::default())?;
+//! let listened = nobody_sends.listen(Duration::from_millis(50), &Stop::new())?;
 //! assert_eq!(listened.findings[0].check, Check::NothingArrives);
 //! # Ok::<(), posewire::Error>(())
 //! ```
@@ -42,5 +43,5 @@ mod values;
 pub use check::Check;
 pub use examination::Examination;
 pub use finding::{Finding, Severity};
-pub use listen::{Listened, listen};
+pub use listen::{Listened, Listener};
 pub use system::examine_system;

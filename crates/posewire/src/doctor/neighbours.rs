@@ -43,15 +43,19 @@ impl OtherTransport {
 pub(super) struct OtherPorts(Vec<UdpSocket>);
 
 impl OtherPorts {
-    /// Those that no other program has.
-    pub(super) fn open(endpoint: &Endpoint) -> Self {
+    /// Those that no other program has; `None` for a protocol that has no other ports.
+    pub(super) fn open(endpoint: &Endpoint) -> Option<Self> {
         let (host, port) = match endpoint {
             Endpoint::MxtpUdp(address) => (&address.host, address.port),
             Endpoint::MxtpTcp(address) => (&address.host, address.port),
-            _ => return Self(Vec::new()),
+            _ => return None,
         };
         let others = USUAL.iter().filter(|other| **other != port);
-        Self(others.filter_map(|other| open(own(host, *other)?)).collect())
+        Some(Self::bind(others.filter_map(|other| own(host, *other))))
+    }
+
+    fn bind(places: impl Iterator<Item = SocketAddr>) -> Self {
+        Self(places.filter_map(open).collect())
     }
 
     /// The first datagram that came to each.
@@ -91,3 +95,48 @@ fn own(host: &Host, port: u16) -> Option<SocketAddr> {
 
 /// MVN's two streams.
 const USUAL: [u16; 2] = [crate::endpoint::DEFAULT_PORT, 9764];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::endpoint::{TcpAddress, UdpAddress};
+    use std::net::TcpStream;
+
+    fn loopback() -> Host {
+        Host::Address([127, 0, 0, 1].into())
+    }
+
+    #[test]
+    fn what_comes_to_another_port_is_told_with_what_it_is() {
+        let any_port = SocketAddr::from(([127, 0, 0, 1], 0));
+        let ports = OtherPorts::bind([any_port, any_port].into_iter());
+        assert_eq!(ports.heard(), []);
+        let sender = UdpSocket::bind(any_port).unwrap();
+        let port = ports.0[1].local_addr().unwrap().port();
+        sender.send_to(b"XTLP\x01\0", ("127.0.0.1", port)).unwrap();
+        let expected = Elsewhere {
+            port,
+            from: sender.local_addr().unwrap(),
+            guess: Guess::Xtlp,
+        };
+        assert_eq!(ports.heard(), [expected]);
+    }
+
+    #[test]
+    fn who_connects_to_a_port_of_udp_or_sends_to_one_of_tcp_is_heard() {
+        let sender = UdpSocket::bind("127.0.0.1:0").unwrap();
+        let port = UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
+        let of_udp = Endpoint::MxtpUdp(UdpAddress::new(loopback(), port));
+        let of_tcp = Endpoint::MxtpTcp(TcpAddress::new(loopback(), port));
+        // Another test may have got one of them meanwhile.
+        if let Some(by_tcp) = OtherTransport::open(&of_udp) {
+            assert_eq!(by_tcp.heard(), None);
+            let peer = TcpStream::connect(("127.0.0.1", port)).unwrap();
+            assert_eq!(by_tcp.heard(), Some(peer.local_addr().unwrap()));
+        }
+        if let Some(by_udp) = OtherTransport::open(&of_tcp) {
+            sender.send_to(b"MXTP02", ("127.0.0.1", port)).unwrap();
+            assert_eq!(by_udp.heard(), Some(sender.local_addr().unwrap()));
+        }
+    }
+}

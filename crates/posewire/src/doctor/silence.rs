@@ -77,7 +77,7 @@ fn of_silence(endpoint: &Endpoint, elapsed: Duration, around: &Circumstances) ->
     let seconds = elapsed.as_secs_f64();
     let mut what = format!("In {seconds:.0} s nothing came.");
     if !is_calling {
-        what += " Excluded: another program on the port, which is free.";
+        what += " Excluded: that another program has the port.";
     }
     let is_local = host.is_some_and(|ip| ip.is_loopback());
     if is_local {
@@ -96,7 +96,7 @@ fn of_traffic(around: &Circumstances) -> String {
         .map(|(name, packets)| format!("{name} received {}", plural(*packets, "packet")))
         .collect();
     if !busy.is_empty() {
-        _ = write!(text, " Excluded: a dead network; {}.", busy.join(", "));
+        _ = write!(text, " Excluded: that the network is dead; {}.", busy.join(", "));
     } else if !around.packets.is_empty() {
         text += " No interface received a single packet: the network itself is silent.";
     }

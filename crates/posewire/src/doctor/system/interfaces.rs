@@ -4,10 +4,12 @@ use super::super::{Check, Finding};
 use crate::net::{LocalInterface, interfaces};
 use std::net::IpAddr;
 
-/// Every address but the loopback's.
+/// Every address that a sender may name: not the loopback's, and not those of one link, which need the link's name as well.
 pub(in crate::doctor) fn addresses() -> Vec<IpAddr> {
     let all = interfaces().into_iter().flat_map(|found| found.addresses);
-    all.filter(is_reachable).collect()
+    let is_link_local = |address: &IpAddr| matches!(address, IpAddr::V6(v6) if v6.is_unicast_link_local());
+    all.filter(|address| is_reachable(address) && !is_link_local(address))
+        .collect()
 }
 
 pub(super) fn findings() -> Vec<Finding> {
@@ -32,7 +34,7 @@ fn of(all: &[LocalInterface]) -> Vec<Finding> {
 
 fn of_interface(found: &LocalInterface) -> Finding {
     let addresses: Vec<_> = found.addresses.iter().map(ToString::to_string).collect();
-    let what = format!("Has the address {}.", addresses.join(" and "));
+    let what = format!("Has the address {}.", addresses.join(", "));
     Finding::new(Check::Interfaces, what).at(&found.name)
 }
 
