@@ -186,6 +186,7 @@ mod tests {
             timecode: None,
             streams: vec![stream],
             samples: None,
+            transit: None,
             tracking: None,
         };
         Statistics {

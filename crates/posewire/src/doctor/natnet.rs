@@ -215,6 +215,7 @@ mod tests {
             timecode: None,
             streams: Vec::new(),
             samples: None,
+            transit: None,
             tracking: Some(Tracking {
                 segments: 23,
                 tracked: 23,

@@ -60,6 +60,7 @@ mod tests {
             timecode: None,
             streams: vec![stream],
             samples: None,
+            transit: None,
             tracking: None,
         };
         let all = Statistics {
