@@ -3,6 +3,7 @@
 mod capture;
 mod convert;
 mod demo;
+mod doctor;
 mod explain;
 mod inspect;
 mod monitor;
@@ -16,6 +17,7 @@ mod value;
 pub(crate) use capture::Capture;
 pub(crate) use convert::{Axes, Convert, OfFormat, Unit};
 pub(crate) use demo::Demo;
+pub(crate) use doctor::Doctor;
 pub(crate) use explain::{Explain, Protocol};
 pub(crate) use inspect::Inspect;
 pub(crate) use monitor::Monitor;
@@ -64,5 +66,6 @@ pub(crate) enum Command {
     Inspect(Inspect),
     Convert(Convert),
     Explain(Explain),
+    Doctor(Doctor),
     Demo(Demo),
 }

@@ -1,10 +1,12 @@
 //! Results as people read them.
 
 mod capture;
+mod doctor;
 mod recording;
 mod server;
 
 pub(crate) use capture::{capture, unread};
+pub(crate) use doctor::print_findings;
 pub(crate) use recording::{losses, recorded, recording, recording_line};
 pub(crate) use server::{delivery, kind, model, unknown_latencies};
 
