@@ -8,6 +8,7 @@ mod explain;
 mod inspect;
 mod monitor;
 mod record;
+mod remote;
 mod replay;
 mod stream;
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 mod peers;
 pub(super) mod refuse;
+mod remote;
 mod sinks;
 mod types;
 
@@ -44,6 +45,9 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
     announce(&sources, sinks.types, &progress.read());
     if let Some(plan) = &plan {
         say(format_args!("faults on purpose: {plan}"));
+    }
+    if let Some(address) = arguments.remote {
+        remote::serve(address, &sources, &sinks, &stop)?;
     }
     let mut peers = Peers::of(&progress.read());
     if !is_live && !arguments.no_wait && !sinks.is_ready() {

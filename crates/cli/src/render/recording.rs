@@ -115,7 +115,7 @@ pub(crate) fn recording(file: &Path, bytes: u64, survey: &Survey) -> String {
         source.senders.iter().for_each(|sender| sender_row(&mut text, sender));
         if source.repeated > 0 {
             let repeated = plural(source.repeated, "description");
-            row(&mut text, "", &format!("{repeated} repeated from an earlier file"));
+            row(&mut text, "", &format!("{repeated} repeated from before"));
         }
     }
     for subject in &survey.subjects {

@@ -46,6 +46,6 @@ impl Controlled for RecordingControl {
 
     fn carry_out(&mut self, request: &Content) -> Result<String, String> {
         let _ = request;
-        Err("this is a recorder".to_owned())
+        Err("a recorder cannot do this".to_owned())
     }
 }

@@ -65,8 +65,8 @@ pub struct TakeProgress {
 pub struct TakesProgress {
     /// The take that is recorded now.
     pub recording: Option<TakeProgress>,
-    /// The one that ended last.
-    pub last: Option<TakeProgress>,
+    /// The one that was recorded when the session ended, which ended it.
+    pub cut_short: Option<TakeProgress>,
     /// How many were begun.
     pub takes: u32,
     /// The sources and how many datagrams came from each, in takes and between them, when it last told.
@@ -85,7 +85,7 @@ struct State {
     /// What the queue has dropped.
     dropped: u64,
     take: Option<Take>,
-    last: Option<TakeProgress>,
+    cut_short: Option<TakeProgress>,
     takes: u32,
     /// Of takes that were ended.
     lost: u64,
@@ -118,7 +118,7 @@ impl TakesSink {
             statistics: BTreeMap::new(),
             dropped: 0,
             take: None,
-            last: None,
+            cut_short: None,
             takes: 0,
             lost: 0,
             owed: false,
@@ -161,7 +161,6 @@ impl Takes {
         let mut state = self.lock();
         state.lost += progress.recorded.lost();
         state.owed = true;
-        state.last = Some(progress.clone());
         finished.map(|()| Some(progress))
     }
 
@@ -176,7 +175,7 @@ impl Takes {
             (endpoint.clone(), datagrams)
         };
         TakesProgress {
-            last: state.last.clone(),
+            cut_short: state.cut_short.clone(),
             takes: state.takes,
             sources: sources.map(heard).collect(),
             lost: state.lost + recording.as_ref().map_or(0, |take| take.recorded.lost()),
@@ -292,7 +291,9 @@ impl Sink for TakesSink {
 
     fn finish(&mut self) -> Result<()> {
         self.takes.lock().ended = true;
-        self.takes.end().map(drop)
+        let cut_short = self.takes.end()?;
+        self.takes.lock().cut_short = cut_short;
+        Ok(())
     }
 }
 
