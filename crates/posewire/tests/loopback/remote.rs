@@ -301,3 +301,27 @@ fn takes_begin_and_end_by_command_and_each_says_who_is_in_it() {
     playing.stop();
     sender.wait().unwrap();
 }
+
+#[test]
+fn a_take_that_cannot_be_written_is_refused_and_the_session_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let takes_into = folder.path().join("takes");
+    let stop = Stop::new();
+    let receiving = open("mxtp://127.0.0.1:0").unwrap();
+    let sink = TakesSink::new(&takes_into, std::slice::from_ref(receiving.endpoint()), None);
+    let control = RecordingControl::new(sink.takes(), Box::new(|_| ()));
+    let client = Client::of(Box::new(control), &stop);
+    let session = Session::start([receiving], vec![Box::new(sink)], stop.clone());
+    let refused = client.ask("<StartRecordingReq SessionName='walk'/>");
+    assert!(
+        refused.contains("Result=\"FALSE\" Reason=\"cannot write to "),
+        "{refused}"
+    );
+    assert!(!client.is("isRecording") && session.is_running());
+    fs::create_dir(&takes_into).unwrap();
+    client.order("StartRecording", "SessionName='walk'");
+    assert!(client.is("isRecording"));
+    stop.stop();
+    session.wait().unwrap();
+    assert!(Survey::of(&takes_into.join("walk.mcap")).unwrap().complete);
+}

@@ -44,3 +44,46 @@ fn subtract(now: &mut StreamStatistics, before: &StreamStatistics) {
         *number = number.saturating_sub(old);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::histogram::Summary;
+    use crate::stats::{Counters, DatagramKind, SubjectStatistics};
+    use posewire_motion::{Skeleton, Subject};
+    use posewire_mxtp::MessageType;
+    use std::sync::Arc;
+
+    fn statistics(kernel_dropped: u64, missing: u64) -> Statistics {
+        let stream = StreamStatistics {
+            kind: DatagramKind::Mxtp(MessageType::QUATERNION),
+            rate_hz: 240.0,
+            counters: Counters {
+                missing,
+                ..Counters::default()
+            },
+            interval: Summary::default(),
+        };
+        let subject = Arc::new(Subject::new("Ada", Skeleton::default()));
+        Statistics {
+            kernel_dropped,
+            subjects: vec![SubjectStatistics {
+                subject,
+                timecode: None,
+                streams: vec![stream],
+                samples: None,
+                transit: None,
+                tracking: None,
+            }],
+            ..Statistics::default()
+        }
+    }
+
+    #[test]
+    fn what_was_lost_before_a_take_is_none_of_it() {
+        let now = since(&statistics(5, 30), Some(&statistics(2, 10)));
+        let missing: Vec<_> = now.streams().map(|(_, stream)| stream.counters.missing).collect();
+        assert_eq!((now.kernel_dropped, missing), (3, vec![20]));
+        assert_eq!(since(&statistics(5, 30), None).kernel_dropped, 5);
+    }
+}
