@@ -23,8 +23,8 @@ pub(super) struct Axes {
 pub(super) enum Sender {
     /// Each type of datagram has its own up axis.
     Mxtp,
-    /// Which axis is up is a setting, and was taken to be this.
-    NatNet { y_is_up: bool },
+    /// Which axis is up and what bones are relative to are settings, and were taken to be these.
+    NatNet { y_is_up: bool, bones_are_local: bool },
 }
 
 impl Axes {
@@ -79,8 +79,10 @@ fn wrong_up(axis: &str, sender: Sender) -> Finding {
     let finding = Finding::new(Check::WrongUpAxis, what);
     match sender {
         Sender::Mxtp => finding,
-        Sender::NatNet { y_is_up: true } => finding.with_remedy("Add ?up=z, or choose Y as Up Axis in Motive."),
-        Sender::NatNet { y_is_up: false } => finding.with_remedy("Leave ?up=z out, or choose Z as Up Axis in Motive."),
+        Sender::NatNet { y_is_up: true, .. } => finding.with_remedy("Add ?up=z, or choose Y as Up Axis in Motive."),
+        Sender::NatNet { y_is_up: false, .. } => {
+            finding.with_remedy("Leave ?up=z out, or choose Z as Up Axis in Motive.")
+        }
     }
 }
 
@@ -97,6 +99,11 @@ mod tests {
         axes.sample(&Landmarks::of(&frame.subject).unwrap().placed(frame).unwrap());
         axes.finding(sender)
     }
+
+    const NATNET: Sender = Sender::NatNet {
+        y_is_up: true,
+        bones_are_local: false,
+    };
 
     /// The same body by a sender whose Y is up: (x, y, z) is sent as (y, z, x).
     fn y_up() -> Frame {
@@ -120,7 +127,7 @@ mod tests {
         let finding = found(&y_up(), Sender::Mxtp).unwrap();
         assert_eq!(finding.check, Check::WrongUpAxis);
         assert!(finding.what.contains("along Y"), "{}", finding.what);
-        let finding = found(&y_up(), Sender::NatNet { y_is_up: true }).unwrap();
+        let finding = found(&y_up(), NATNET).unwrap();
         assert!(finding.remedy.contains("up=z"));
     }
 

@@ -40,7 +40,7 @@ pub enum Check {
     QuaternionOrder,
     /// Quaternions that are no rotation.
     QuaternionNorm,
-    /// Bones given relative to their parents and read as in the world.
+    /// Bones given relative to their parents and read as in the world, or the other way round.
     RelativeBones,
     /// Numbers that are infinite or no number.
     NotFinite,

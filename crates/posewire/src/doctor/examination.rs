@@ -15,6 +15,7 @@ use crate::endpoint::Endpoint;
 use crate::stats::Statistics;
 use crate::{Datagram, Item, Notice};
 use posewire_motion::Up;
+use posewire_natnet::motion::Coordinates;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -53,6 +54,7 @@ impl Examination {
         let sender = match endpoint {
             Endpoint::NatNet(address) => Sender::NatNet {
                 y_is_up: address.up == Up::Y,
+                bones_are_local: address.skeleton == Coordinates::Local,
             },
             _ => Sender::Mxtp,
         };

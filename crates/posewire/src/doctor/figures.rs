@@ -104,7 +104,7 @@ impl Figure {
     }
 
     fn findings(&self, sender: Sender) -> Vec<Finding> {
-        let relative = self.relations.finding().filter(|_| sender != Sender::Mxtp);
+        let relative = self.relations.finding(sender);
         // In a heap nothing else is right either, and along another axis no orientation fits.
         let is_heap = relative.is_some();
         let axes = self.axes.finding(sender).filter(|_| !is_heap);

@@ -127,10 +127,17 @@ fn rate_off(all: &Statistics, stream: &StreamStatistics, nominal: Option<f64>) -
     };
     let expected = nominal? / f64::from(stream.counters.stride.unwrap_or(1));
     let is_long_enough = all.elapsed >= Duration::from_secs(2) && stream.counters.received >= 30;
-    let rate = stream.rate_hz;
+    // What is missing was sent, or is told of elsewhere.
+    let (received, missing) = (stream.counters.received as f64, stream.counters.missing as f64);
+    let rate = stream.rate_hz * (received + missing) / received;
     let is_off = !(0.95..1.05).contains(&(rate / expected));
+    let of_clock = if all.server.is_some() {
+        "the server says"
+    } else {
+        "by the stream's own clock it should be"
+    };
     let what = format!(
-        "{rate:.1} of type {} a second arrive; by the stream's own clock it should be {expected:.1}.",
+        "{rate:.1} of type {} a second arrive; {of_clock} {expected:.1}.",
         stream.kind
     );
     (is_numbered && is_long_enough && is_off).then(|| Finding::new(Check::RateOff, what))
@@ -265,6 +272,9 @@ mod tests {
         let stream = &all.subjects[0].streams[0];
         assert_eq!(rate_off(&all, stream, Some(960.0)), None);
         assert_eq!(rate_off(&all, stream, None), None);
+        let mut lossy = stream.clone();
+        (lossy.rate_hz, lossy.counters.missing) = (220.0, 110);
+        assert_eq!(rate_off(&all, &lossy, Some(960.0)), None, "what is missing is a loss");
         let found = rate_off(&all, stream, Some(240.0)).unwrap();
         assert!(
             found.what.contains("240.0 of type 02") && found.what.ends_with("60.0."),

@@ -32,7 +32,14 @@ pub(super) fn findings(address: &NatNetAddress, all: &Statistics) -> Vec<Finding
 }
 
 fn no_answer(address: &NatNetAddress) -> Finding {
-    Finding::new(Check::NoAnswer, "No NatNet server answered.").at(address)
+    let remedy = format!(
+        "In Motive, Settings > Streaming: Enable; as Local Interface the network that this machine is in. Let UDP {} through \
+         the firewall there.",
+        address.port
+    );
+    Finding::new(Check::NoAnswer, "No NatNet server answered.")
+        .at(address)
+        .with_remedy(remedy)
 }
 
 /// Frames of a server that never answered are of no known version.
@@ -44,7 +51,11 @@ fn unread_frames(server: &ServerStatistics) -> Option<Finding> {
 }
 
 fn delivery(address: &NatNetAddress, server: &ServerStatistics) -> Option<Finding> {
-    let better = server.better.as_ref()?;
+    // Where frames come all the same, nothing is wrong.
+    let better = server
+        .better
+        .as_ref()
+        .filter(|_| server.frames.counters.received == 0)?;
     let says = match better.mode {
         Mode::Multicast => format!("to the group {}:{}", better.group, better.data_port),
         Mode::Unicast => "to each client by itself".to_owned(),

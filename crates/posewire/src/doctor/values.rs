@@ -1,6 +1,7 @@
 //! Numbers that are none, and bones that are relative to their parents.
 
 use super::Check;
+use super::axes::Sender;
 use super::finding::{Finding, plural};
 use super::landmarks::finite;
 use posewire_motion::{DVec3, Frame};
@@ -65,31 +66,56 @@ fn first_not_finite(frame: &Frame) -> Option<(&'static str, usize)> {
     turned.map(|place| ("orientation", place)).or_else(moved)
 }
 
-/// Whether bones are where they are in the null pose relative to their parents, and not in the world.
+/// Whether bones are relative to what they were taken to be relative to.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Relations {
     bones: u64,
+    /// Those as far from the origin, in every direction, as from their parents in the null pose.
     relative: u64,
+    /// Those whose distance from their parents is not that in the null pose.
+    torn: u64,
 }
 
 impl Relations {
     pub(super) fn sample(&mut self, frame: &Frame) {
         let segments = &frame.subject.skeleton.segments;
         for (place, segment) in segments.iter().enumerate() {
-            let parent = segment.parent.and_then(|parent| segments.get(parent));
-            let offset = parent.and_then(|parent| Some(segment.origin? - parent.origin?));
-            let (Some(offset), Some(position)) = (offset, finite(&frame.position, place)) else {
+            let Some(parent) = segment.parent else {
                 continue;
             };
-            self.bones += 1;
-            self.relative += u64::from((position - offset).length() < CLOSE);
+            let offset = segments
+                .get(parent)
+                .and_then(|parent| Some(segment.origin? - parent.origin?));
+            let position = |place| finite(&frame.position, place);
+            if let (Some(offset), Some(own), Some(of_parent)) = (offset, position(place), position(parent)) {
+                self.bones += 1;
+                self.relative += u64::from((own - offset).length() < CLOSE);
+                let difference = (own - of_parent).length() - offset.length();
+                self.torn += u64::from(difference.abs() > CLOSE + offset.length() / 2.0);
+            }
         }
     }
 
-    pub(super) fn finding(&self) -> Option<Finding> {
-        let what = "Bones are as far from the origin as they are from their parents.";
-        let is_relative = self.bones >= FEWEST_BONES && self.relative * 10 > self.bones * 8;
-        is_relative.then(|| Finding::new(Check::RelativeBones, what))
+    /// Only of NatNet, where it is a setting that no packet tells.
+    pub(super) fn finding(&self, sender: Sender) -> Option<Finding> {
+        let is_most = |count: u64| self.bones >= FEWEST_BONES && count * 10 > self.bones * 8;
+        match sender {
+            Sender::NatNet {
+                bones_are_local: false, ..
+            } => {
+                let what = "Bones are as far from the origin as they are from their parents.";
+                is_most(self.relative).then(|| Finding::new(Check::RelativeBones, what))
+            }
+            Sender::NatNet {
+                bones_are_local: true, ..
+            } => {
+                let what = "Read as relative to their parents, bones are not as far from these as they are described.";
+                let finding = || Finding::new(Check::RelativeBones, what);
+                let remedy = "Leave ?skeleton=local out, or choose Local as Skeleton Coordinates in Motive.";
+                is_most(self.torn).then(|| finding().with_remedy(remedy))
+            }
+            Sender::Mxtp => None,
+        }
     }
 }
 
@@ -115,11 +141,42 @@ mod tests {
         assert!(what.ends_with("the first the position of Head in sample 7."), "{what}");
     }
 
+    const GLOBAL: Sender = Sender::NatNet {
+        y_is_up: true,
+        bones_are_local: false,
+    };
+    const LOCAL: Sender = Sender::NatNet {
+        y_is_up: true,
+        bones_are_local: true,
+    };
+
+    #[test]
+    fn bones_in_the_world_that_were_put_on_their_parents_are_torn_off() {
+        let mut frame = upright();
+        let before = frame.position.clone();
+        let segments = frame.subject.skeleton.segments.clone();
+        for (place, segment) in segments.iter().enumerate() {
+            if let Some(parent) = segment.parent {
+                frame.position[place] = Some(frame.position[parent].unwrap() + before[place].unwrap());
+            }
+        }
+        let mut relations = Relations::default();
+        relations.sample(&frame);
+        assert!(
+            relations
+                .finding(LOCAL)
+                .unwrap()
+                .remedy
+                .starts_with("Leave ?skeleton=local out")
+        );
+    }
+
     #[test]
     fn bones_relative_to_their_parents_are_told_from_those_in_the_world() {
         let mut relations = Relations::default();
         relations.sample(&upright());
-        assert_eq!(relations.finding(), None);
+        assert_eq!(relations.finding(GLOBAL), None);
+        assert_eq!(relations.finding(LOCAL), None);
         let mut frame = upright();
         let segments = frame.subject.skeleton.segments.clone();
         for (place, segment) in segments.iter().enumerate() {
@@ -130,6 +187,6 @@ mod tests {
         }
         let mut relations = Relations::default();
         relations.sample(&frame);
-        assert_eq!(relations.finding().unwrap().check, Check::RelativeBones);
+        assert_eq!(relations.finding(GLOBAL).unwrap().check, Check::RelativeBones);
     }
 }

@@ -52,6 +52,12 @@ fn found_in(change: fn(&mut Frame)) -> Listened {
 }
 
 fn send_pose(sender: &UdpSocket, place: SocketAddr, sample: u32, change: fn(&mut Frame)) {
+    for datagram in pose(sample, change).iter() {
+        sender.send_to(datagram, place).unwrap();
+    }
+}
+
+fn pose(sample: u32, change: fn(&mut Frame)) -> Datagrams {
     let mut frame = Frame::new(Arc::new(Subject::new("Ada", Skeleton::standard(0, false))));
     frame.position = frame.subject.skeleton.segments.iter().map(|one| one.origin).collect();
     frame.orientation = vec![Some(DQuat::IDENTITY); frame.position.len()];
@@ -64,9 +70,7 @@ fn send_pose(sender: &UdpSocket, place: SocketAddr, sample: u32, change: fn(&mut
         ..EncoderOptions::default()
     });
     encoder.encode_frame(&frame, &mut datagrams);
-    for datagram in datagrams.iter() {
-        sender.send_to(datagram, place).unwrap();
-    }
+    datagrams
 }
 
 fn for_positions(frame: &mut Frame, change: fn(DVec3) -> DVec3) {
@@ -211,6 +215,37 @@ fn a_clock_that_leaps_and_samples_that_are_missing_are_found() {
     assert_broken(&listened, &[]);
     finding(&listened, Check::ClockJump);
     finding(&listened, Check::Loss);
+}
+
+/// The kernel tells of what it dropped with the first datagram that found room again.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_this_machine_drops_is_counted_as_lost_here() {
+    let (listener, place) = listener();
+    let (sender, stop) = (sender(), Stop::new());
+    let pose = pose(0, |_| {});
+    // More than the 16 MiB at most that the kernel grants, by its own count.
+    for _ in 0..10_000 {
+        sender.send_to(pose.as_bytes(), place).unwrap();
+    }
+    let ended = stop.clone();
+    let sending = thread::spawn(move || {
+        for sample in 1..300 {
+            send_pose(&sender, place, sample, |_| {});
+            ended.wait(Duration::from_millis(1));
+        }
+        ended.stop();
+    });
+    let listened = listener.listen(PATIENCE, &stop).unwrap();
+    sending.join().unwrap();
+    assert_broken(&listened, &[Check::KernelDrops]);
+    assert!(listened.lost_here > 0);
+}
+
+#[test]
+fn bones_that_are_taken_for_relative_are_found() {
+    let listened = of_walkers("?skeleton=local");
+    assert_broken(&listened, &[Check::RelativeBones]);
 }
 
 #[test]
