@@ -239,8 +239,9 @@ impl RecordSink {
     fn flush(&mut self) -> Result<()> {
         self.due = None;
         if let Some(writer) = &mut self.writer {
-            writer.flush()?;
+            writer.hand_over()?;
             self.unflushed = 0;
+            writer.split(self.progress.dropped)?;
             self.syncing.follow(writer);
         }
         self.publish();
