@@ -309,6 +309,14 @@ pub enum Error {
         /// The file.
         path: PathBuf,
     },
+    /// A recording that has damage in it, where it was to be replaced by what comes before that.
+    #[error("{path} is damaged, and what follows the damage would be lost: {problem}")]
+    DamagedWithin {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        problem: String,
+    },
     /// Work that was stopped before its end.
     #[error("stopped while {what}")]
     Stopped {

@@ -59,6 +59,7 @@ impl Error {
             Self::Stopped { .. } => Some("nothing was left half written; start again when you like".into()),
             Self::Feature { feature, .. } => Some(format!("cargo install --path crates/cli --features {feature}")),
             Self::NotMcap { .. } => Some("give a file that posewire record has written".into()),
+            Self::DamagedWithin { .. } => Some("-o FILE writes what comes before the damage to another file".into()),
             Self::Compressed { .. } => {
                 Some("mcap compress --compression none, a tool of mcap.dev, writes it anew".into())
             }
