@@ -55,6 +55,7 @@ impl Recording {
     pub(super) fn open(from: impl Read + Send + 'static) -> Self {
         let options = LinearReaderOptions::default()
             .with_skip_end_magic(true)
+            .with_prevalidate_chunk_crcs(true)
             .with_record_length_limit(LONGEST_RECORD);
         Self {
             from: Box::new(from),
