@@ -160,6 +160,7 @@ fn targets_come_and_go_while_a_stream_runs() {
             guest.port()
         )
     );
+    assert!(client.ask("<AddNetworkStreamingTargetReq/>").contains("Result=\"FALSE\""));
     for wrong in ["localhost", "0.0.0.0", "", "file:///etc/passwd"] {
         let answer = client.ask(&format!(
             "<AddNetworkStreamingTargetReq IpAddress='{wrong}' PortNumber='9763'/>"
@@ -178,7 +179,6 @@ fn rubbish_is_not_answered_and_harms_nothing() {
     for rubbish in [
         bomb,
         "\u{1b}[2J",
-        "<AddNetworkStreamingTargetReq/>",
         &"<A>".repeat(1000),
         &"x".repeat(60_000),
     ] {
@@ -333,17 +333,8 @@ fn a_take_that_could_not_be_completed_is_told_of_at_the_end() {
     let folder = tempfile::tempdir().unwrap();
     let takes_folder = folder.path().join("takes");
     fs::create_dir(&takes_folder).unwrap();
-    // A new file with every flush, for which there is no folder soon.
-    let endpoint: Endpoint = "mxtp://127.0.0.1:9763".parse().unwrap();
-    let mut sink = TakesSink::new(&takes_folder, &[endpoint], Some(1));
+    let mut sink = begin_to_fail(&takes_folder);
     let takes = sink.takes();
-    takes.begin(&"walk".parse().unwrap()).unwrap();
-    fs::remove_dir_all(&takes_folder).unwrap();
-    for _ in 0..2 {
-        let item = Item::Datagram(datagram());
-        sink.accept(SourceId(0), &item).unwrap();
-        sink.handle_timeout().unwrap();
-    }
     sink.finish().unwrap();
 
     let progress = takes.progress();
@@ -356,6 +347,35 @@ fn a_take_that_could_not_be_completed_is_told_of_at_the_end() {
     );
     // The first one was in the file when the next one could not be created.
     assert_eq!((ended.datagrams(), ended.unwritten, progress.lost), (1, 1, 1));
+}
+
+#[test]
+fn a_take_that_cannot_be_written_is_not_in_the_way_of_the_next() {
+    let folder = tempfile::tempdir().unwrap();
+    let takes_folder = folder.path().join("takes");
+    fs::create_dir(&takes_folder).unwrap();
+    let takes = begin_to_fail(&takes_folder).takes();
+    let mut control = RecordingControl::new(takes.clone(), Box::new(|_| {}));
+    assert_eq!(control.status().recording, None);
+    assert!(control.start_recording(&"run".parse().unwrap()).is_err());
+    fs::create_dir(&takes_folder).unwrap();
+    control.start_recording(&"run".parse().unwrap()).unwrap();
+    assert_eq!(control.status().recording.as_deref(), Some("run"));
+    assert_eq!((takes.progress().takes, takes.progress().lost), (2, 1));
+}
+
+/// Takes of which the first could not be written to its end: each flush begins a new file, for which there is no folder.
+fn begin_to_fail(folder: &Path) -> TakesSink {
+    let endpoint: Endpoint = "mxtp://127.0.0.1:9763".parse().unwrap();
+    let mut sink = TakesSink::new(folder, &[endpoint], Some(1));
+    sink.takes().begin(&"walk".parse().unwrap()).unwrap();
+    fs::remove_dir_all(folder).unwrap();
+    for _ in 0..2 {
+        let item = Item::Datagram(datagram());
+        sink.accept(SourceId(0), &item).unwrap();
+        sink.handle_timeout().unwrap();
+    }
+    sink
 }
 
 fn datagram() -> Arc<Datagram> {
