@@ -12,6 +12,8 @@ mod poses;
 mod records;
 mod recover;
 mod reminder;
+mod senders;
+mod subjects;
 mod survey;
 mod take_name;
 mod writer;
