@@ -156,12 +156,17 @@ impl TakesSink {
 }
 
 impl Takes {
-    /// Begins a take, and gives its file: `walk.mcap`, or `walk_2.mcap` where that is there.
+    /// Begins a take, and gives its file: `walk.mcap`, or `walk_2.mcap` where that is there. One that could not be written any
+    /// more does not stand in its way.
     ///
     /// # Errors
     /// [`Error::TakeRuns`] while another is recorded, [`Error::Stopped`] when the session is over, [`Error::Write`] when the
     /// file cannot be written.
     pub fn begin(&self, name: &TakeName) -> Result<PathBuf> {
+        let has_failed = |running: &Running| lock(&running.recorded).failure.is_some();
+        if lock(&self.told).running.as_ref().is_some_and(has_failed) {
+            self.close();
+        }
         let mut state = self.lock();
         let (file, running) = state.begin(name)?;
         let mut told = lock(&self.told);
