@@ -157,6 +157,7 @@ fn a_split_recording_is_used_as_one() {
     std::fs::remove_file(folder.path().join("take-003.mcap")).unwrap();
     for arguments in verbs {
         let ended = posewire(folder.path(), arguments, b"");
+        assert_eq!(ended.code, Some(3), "{}", ended.err);
         let problem = "take-002.mcap: the recording goes on in part 3, which is missing";
         assert!(ended.err.contains(problem), "{}", ended.err);
     }
