@@ -1,5 +1,6 @@
 //! Files that get their name when they are whole.
 
+use crate::recording::is_being_recorded;
 use crate::{Error, Result};
 use std::fs::{self, File};
 use std::io;
@@ -30,6 +31,9 @@ pub(crate) fn give_name(file: NamedTempFile, path: &Path, overwrite: bool) -> Re
     file.as_file().sync_all().map_err(|error| failed(&error))?;
     let bytes = file.as_file().metadata().map_err(|error| failed(&error))?.len();
     if overwrite {
+        if is_being_recorded(path) {
+            return Err(Error::BeingRecorded { path: path.to_owned() });
+        }
         // What a link points to is replaced, not the link.
         let whole = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
         file.persist(whole).map_err(|error| failed(&error.error))?;
@@ -41,6 +45,27 @@ pub(crate) fn give_name(file: NamedTempFile, path: &Path, overwrite: bool) -> Re
         let _ = folder.sync_all();
     }
     Ok(bytes)
+}
+
+/// Whether two paths lead to one file, by whichever links.
+pub(crate) fn is_same_file(one: &Path, other: &Path) -> bool {
+    let (Ok(one), Ok(other)) = (fs::canonicalize(one), fs::canonicalize(other)) else {
+        return false;
+    };
+    one == other || has_two_names(&one, &other)
+}
+
+/// Whether a file has both names, each as its own.
+#[cfg(unix)]
+fn has_two_names(one: &Path, other: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let number = |path| fs::metadata(path).map(|file| (file.dev(), file.ino()));
+    matches!((number(one), number(other)), (Ok(one), Ok(other)) if one == other)
+}
+
+#[cfg(not(unix))]
+fn has_two_names(_one: &Path, _other: &Path) -> bool {
+    false
 }
 
 /// The folder that a file is in, or would be.

@@ -297,6 +297,24 @@ pub enum Error {
         /// The file.
         path: PathBuf,
     },
+    /// A file that would be replaced by what is made of it.
+    #[error("{} would be written over itself", path.display())]
+    OntoItself {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file that was to be replaced while somebody records into it.
+    #[error("{} is being recorded", path.display())]
+    BeingRecorded {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file that somebody removed or replaced while it was recorded, with what was in it.
+    #[error("{} was removed or replaced while it was recorded", path.display())]
+    Removed {
+        /// The file.
+        path: PathBuf,
+    },
     /// A file that is no MCAP file.
     #[error("{path} is not an MCAP file")]
     NotMcap {
@@ -410,6 +428,7 @@ impl Error {
                 | Self::WriteOnly { .. }
                 | Self::Fixed { .. }
                 | Self::Exists { .. }
+                | Self::OntoItself { .. }
                 | Self::NoSamples { .. }
                 | Self::NewRate { .. }
                 | Self::Feature { .. }

@@ -1,7 +1,7 @@
 //! Captures from one kind of file to another.
 
 use super::{Capture, CaptureOptions, Captured, Counts, PcapWriter, Survey};
-use crate::beside::{beside, give_name};
+use crate::beside::{beside, give_name, is_same_file};
 use crate::recording::{Writer, WriterOptions};
 use crate::stop::Stop;
 use crate::{Error, Result, SourceId};
@@ -35,14 +35,18 @@ pub struct ConvertOptions {
 /// addresses. The file has a hidden name until it is whole.
 ///
 /// # Errors
-/// Those of [`Survey::of`], of [`Survey::choose`] and of the writer; [`Error::Exists`] when the file is there and is not to be
-/// overwritten, and [`Error::Stopped`] after `stop`. None of them leaves a file.
+/// Those of [`Survey::of`], of [`Survey::choose`] and of the writer; [`Error::OntoItself`] when the file is one of those that are
+/// read, [`Error::Exists`] when it is there and is not to be overwritten, and [`Error::Stopped`] after `stop`. None of them leaves
+/// a file, nor takes one away.
 pub fn convert(from: &Path, to: &Path, options: &ConvertOptions, stop: &Stop) -> Result<Converted> {
+    let mut capture = Capture::open(from, &CaptureOptions::default())?;
+    if capture.files().iter().any(|file| is_same_file(file, to)) {
+        return Err(Error::OntoItself { path: to.to_owned() });
+    }
     if !options.overwrite && to.exists() {
         return Err(Error::Exists { path: to.to_owned() });
     }
     let chosen = chosen(from, options.only.as_deref())?;
-    let mut capture = Capture::open(from, &CaptureOptions::default())?;
     let hidden = beside(to).map_err(|error| Error::write(to.display().to_string(), &error))?;
     let mut output = Output::create(from, to, hidden.path())?;
     let mut datagrams = 0;
