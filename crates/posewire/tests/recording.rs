@@ -1,7 +1,7 @@
 //! Whatever a file holds, going through it and recovering it end, cause no panic and take no more memory or disk than it has.
 
 use posewire::capture::{Capture, CaptureOptions};
-use posewire::recording::{Survey, Writer, WriterOptions, recover};
+use posewire::recording::{Survey, Writer, WriterOptions, is_being_recorded, recover};
 use posewire::{Datagram, Error, SourceId, Wire};
 use posewire_motion::{DQuat, DVec3, Frame, Skeleton, Stamp, Subject};
 use proptest::prelude::*;
@@ -148,6 +148,32 @@ fn a_file_that_was_cut_off_is_replaced_by_what_is_whole() {
         assert!(recovered.is_ok(), "{tail}: {recovered:?}");
         assert!(Survey::of(&path).unwrap().complete);
     }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_file_that_is_being_recorded_is_neither_recovered_nor_overwritten() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, other) = (folder.path().join("take.mcap"), folder.path().join("other.mcap"));
+    let create = |overwrite| {
+        let options = WriterOptions {
+            overwrite,
+            ..WriterOptions::default()
+        };
+        Writer::create(&path, &["mxtp://127.0.0.1:9763".to_owned()], options)
+    };
+    let writer = create(false).unwrap();
+    assert!(is_being_recorded(&path));
+    let expected = Error::BeingRecorded { path: path.clone() };
+    assert_eq!(recover(&path, &path).unwrap_err(), expected);
+    assert_eq!(create(true).unwrap_err(), expected);
+    assert!(Survey::of(&path).unwrap().sources.len() == 1, "it was emptied");
+    assert!(recover(&path, &other).is_ok());
+
+    writer.finish().unwrap();
+    assert!(!is_being_recorded(&path));
+    assert!(recover(&path, &path).unwrap().was_complete);
+    assert!(create(true).is_ok());
 }
 
 proptest! {

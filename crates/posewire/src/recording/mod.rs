@@ -6,6 +6,7 @@
 mod briefing;
 mod description;
 mod format;
+mod lock;
 mod names;
 mod part;
 mod poses;
@@ -24,6 +25,7 @@ pub use format::{
     CONTINUED, END, FROM, KIND, NAME, POSES, RAW, RECORDING, REPEATED, SOURCE, SOURCE_RECORD, SUBJECT, SUBJECT_RECORD,
     TO, WIRE,
 };
+pub use lock::is_being_recorded;
 pub use recover::{Recovered, recover};
 pub use survey::{SenderSurvey, SourceSurvey, SubjectSurvey, Survey};
 pub use take_name::{NameError, TakeName};

@@ -1,13 +1,14 @@
 //! One MCAP file, being written.
 
 use super::format::{Keys, protocol};
+use super::lock::{self, Whereabouts};
 use super::poses;
 use crate::{Error, Result};
 use mcap::records::{MessageHeader, Metadata};
 use mcap::write::NoSeek;
 use mcap::{McapError, WriteOptions};
 use posewire_motion::Stamp;
-use std::fs::{File, OpenOptions};
+use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -36,15 +37,12 @@ pub(super) struct Message<'a> {
 }
 
 impl Part {
-    /// Creates the file. One that is there is replaced only with `overwrite`.
+    /// Creates the file, which nobody else records into until this is closed. One that is there is replaced only with `overwrite`.
     pub(super) fn create(path: &Path, overwrite: bool) -> Result<Self> {
-        let mut options = OpenOptions::new();
-        options.write(true).create(true).truncate(true);
-        if !overwrite {
-            options.create_new(true);
-        }
-        let file = options.open(path).map_err(|error| cannot_create(path, &error))?;
-        let same = file.try_clone().map_err(|error| cannot_create(path, &error))?;
+        let file = lock::create(path, overwrite)?;
+        let same = file
+            .try_clone()
+            .map_err(|error| Error::write(path.display().to_string(), &error))?;
         let written = Arc::new(AtomicU64::new(0));
         let counted = Counted {
             file: same,
@@ -75,6 +73,11 @@ impl Part {
     /// The file as it is open, to see it onto the disk from elsewhere.
     pub(super) fn handle(&self) -> Option<File> {
         self.file.try_clone().ok()
+    }
+
+    /// Whether the file still has its name.
+    pub(super) fn whereabouts(&self) -> Whereabouts {
+        lock::whereabouts(&self.file, &self.path)
     }
 
     /// How long the file is, and will be with what is not in it yet.
@@ -140,6 +143,8 @@ impl Part {
             synced => synced,
         });
         synced.map_err(|error| Error::write(self.path.display().to_string(), &error))?;
+        // Whoever sees it onto the disk may have it open for longer.
+        let _ = self.file.unlock();
         Ok(self.written.load(Ordering::Relaxed))
     }
 
@@ -152,6 +157,7 @@ impl Part {
         drop(buffered);
         // When this fails too, what comes before the torn chunk can be read all the same.
         let _ = file.set_len(whole);
+        let _ = file.unlock();
     }
 }
 
@@ -171,13 +177,6 @@ impl Write for Counted {
     fn flush(&mut self) -> io::Result<()> {
         self.file.flush()
     }
-}
-
-fn cannot_create(path: &Path, error: &io::Error) -> Error {
-    if error.kind() == io::ErrorKind::AlreadyExists {
-        return Error::Exists { path: path.to_owned() };
-    }
-    Error::write(path.display().to_string(), error)
 }
 
 pub(super) fn cannot_write(path: &Path, error: McapError) -> Error {

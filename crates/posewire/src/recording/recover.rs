@@ -1,5 +1,6 @@
 //! Making a recording whole again that was cut off.
 
+use super::lock;
 use super::part::cannot_write;
 use super::records::{Records, is_index};
 use crate::beside::{beside, give_name};
@@ -23,14 +24,20 @@ pub struct Recovered {
 }
 
 /// Writes what can be read of `from` into `to`, with an index. `from` and `to` may be the same file. The new file stands at its
-/// place only once it is whole and on the disk.
+/// place only once it is whole and on the disk. Of a file that is being recorded, `to` gets what is in it so far.
 ///
 /// # Errors
 /// [`Error::Read`], [`Error::NotMcap`] and [`Error::Compressed`] of the old file; [`Error::Exists`] when `to` is there and is
-/// another file than `from`, [`Error::DamagedWithin`] when `to` would replace what can be read only in part, and [`Error::Write`].
+/// another file than `from`, [`Error::BeingRecorded`] and [`Error::DamagedWithin`] when `to` would replace what is still written or
+/// can be read only in part, and [`Error::Write`].
 pub fn recover(from: &Path, to: &Path) -> Result<Recovered> {
-    let mut records = Records::open(from)?;
     let in_place = is_same(from, to);
+    let old = File::open(from).map_err(|error| Error::read(from, &error))?;
+    if in_place {
+        // What a recorder has still to write would go into the old file, which nobody finds any more.
+        lock::own(&old, from)?;
+    }
+    let mut records = Records::open(from)?;
     if to.exists() && !in_place {
         return Err(Error::Exists { path: to.to_owned() });
     }
@@ -44,6 +51,7 @@ pub fn recover(from: &Path, to: &Path) -> Result<Recovered> {
         let path = from.to_owned();
         return Err(Error::DamagedWithin { path, problem });
     }
+    drop(old);
     give_name(draft, to, in_place)?;
     Ok(Recovered {
         messages,
