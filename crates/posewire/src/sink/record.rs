@@ -1,5 +1,7 @@
 //! Records a session.
 
+mod syncing;
+
 use crate::endpoint::Endpoint;
 use crate::queue::Policy;
 use crate::recording::{Briefing, Writer, WriterOptions};
@@ -10,8 +12,8 @@ use posewire_motion::{Frame, Stamp};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
+use syncing::Syncing;
 
 /// How a session is recorded.
 pub type RecordOptions = WriterOptions;
@@ -243,6 +245,7 @@ impl RecordSink {
             self.unflushed = 0;
             writer.split(self.progress.dropped)?;
             self.syncing.follow(writer);
+            self.syncing.failure()?;
         }
         self.publish();
         Ok(())
@@ -319,8 +322,11 @@ impl Sink for RecordSink {
                 }
             }
         }
-        self.publish();
         self.syncing.end();
+        match self.syncing.failure() {
+            Err(error) if self.failure.is_none() => self.fail(error),
+            _ => self.publish(),
+        }
         self.failure.take().map_or(Ok(()), Err)
     }
 }
@@ -341,56 +347,3 @@ fn is_data(item: &Item) -> bool {
 fn lock<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
     shared.lock().unwrap_or_else(PoisonError::into_inner)
 }
-
-/// A thread that sees the file onto the disk once a second, so that what is written outlives the machine, and no write waits
-/// for it.
-struct Syncing {
-    file: Arc<Mutex<Option<std::fs::File>>>,
-    path: PathBuf,
-    ending: Stop,
-    thread: Option<JoinHandle<()>>,
-}
-
-impl Syncing {
-    fn start(writer: &Writer) -> Self {
-        let file = Arc::new(Mutex::new(writer.handle()));
-        let (synced, ending) = (Arc::clone(&file), Stop::new());
-        let end = ending.clone();
-        let thread = thread::spawn(move || {
-            while !end.wait(SYNC_EVERY) {
-                let file = lock(&synced).as_ref().and_then(|file| file.try_clone().ok());
-                // What cannot be synced, as a pipe, is not on this disk; a disk that fails also fails to be written.
-                file.map(|file| file.sync_data());
-            }
-        });
-        Self {
-            file,
-            path: writer.path().to_owned(),
-            ending,
-            thread: Some(thread),
-        }
-    }
-
-    /// Goes on with the file that is written now.
-    fn follow(&mut self, writer: &Writer) {
-        if self.path != writer.path() {
-            writer.path().clone_into(&mut self.path);
-            *lock(&self.file) = writer.handle();
-        }
-    }
-
-    fn end(&mut self) {
-        self.ending.stop();
-        if let Some(thread) = self.thread.take() {
-            thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        }
-    }
-}
-
-impl Drop for Syncing {
-    fn drop(&mut self) {
-        self.ending.stop();
-    }
-}
-
-const SYNC_EVERY: Duration = Duration::from_secs(1);
