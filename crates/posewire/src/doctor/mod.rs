@@ -31,6 +31,7 @@ mod losses;
 mod natnet;
 mod neighbours;
 mod orientation;
+mod paces;
 mod protocol;
 mod senders;
 mod silence;

@@ -74,8 +74,9 @@ fn of_other_transport(endpoint: &Endpoint, from: SocketAddr) -> Finding {
 fn of_silence(endpoint: &Endpoint, elapsed: Duration, around: &Circumstances) -> Finding {
     let (host, port) = place_of(endpoint);
     let is_calling = matches!(endpoint, Endpoint::MxtpTcp(address) if address.mode == Some(TcpMode::Connect));
-    let seconds = elapsed.as_secs_f64();
-    let mut what = format!("In {seconds:.0} s nothing came.");
+    // As people say it: 2.5 s and 5 s.
+    let seconds = (elapsed.as_secs_f64() * 10.0).round() / 10.0;
+    let mut what = format!("In {seconds} s nothing came.");
     if !is_calling {
         what += " Excluded: that another program has the port.";
     }

@@ -160,7 +160,11 @@ fn targets_come_and_go_while_a_stream_runs() {
             guest.port()
         )
     );
-    assert!(client.ask("<AddNetworkStreamingTargetReq/>").contains("Result=\"FALSE\""));
+    assert!(
+        client
+            .ask("<AddNetworkStreamingTargetReq/>")
+            .contains("Result=\"FALSE\"")
+    );
     for wrong in ["localhost", "0.0.0.0", "", "file:///etc/passwd"] {
         let answer = client.ask(&format!(
             "<AddNetworkStreamingTargetReq IpAddress='{wrong}' PortNumber='9763'/>"
@@ -176,12 +180,7 @@ fn rubbish_is_not_answered_and_harms_nothing() {
     let (ear, stop) = (Ear::open(), Stop::new());
     let (client, session) = controlled(open("synthetic:walk?rate=60").unwrap(), &ear, &stop);
     let bomb = "<!DOCTYPE a [<!ENTITY b \"&b;\">]><IdentifyReq>&b;</IdentifyReq>";
-    for rubbish in [
-        bomb,
-        "\u{1b}[2J",
-        &"<A>".repeat(1000),
-        &"x".repeat(60_000),
-    ] {
+    for rubbish in [bomb, "\u{1b}[2J", &"<A>".repeat(1000), &"x".repeat(60_000)] {
         client.send(rubbish);
     }
     assert!(
