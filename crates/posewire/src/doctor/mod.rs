@@ -46,4 +46,5 @@ pub use check::Check;
 pub use examination::Examination;
 pub use finding::{Finding, Severity};
 pub use listen::{Listened, Listener};
+pub(crate) use senders::Senders;
 pub use system::examine_system;

@@ -11,7 +11,7 @@ use std::net::SocketAddr;
 
 /// Who sends which character, or frames to a group.
 #[derive(Debug, Default)]
-pub(super) struct Senders {
+pub(crate) struct Senders {
     heard: BTreeMap<Numbering, BTreeMap<SocketAddr, Heard>>,
 }
 
@@ -33,7 +33,7 @@ struct Heard {
 }
 
 impl Senders {
-    pub(super) fn datagram(&mut self, datagram: &Datagram) {
+    pub(crate) fn datagram(&mut self, datagram: &Datagram) {
         let Some(what) = stream_of(datagram) else {
             return;
         };
@@ -54,7 +54,7 @@ impl Senders {
     }
 
     /// One for all that the same senders send.
-    pub(super) fn findings(&self) -> impl Iterator<Item = Finding> {
+    pub(crate) fn findings(&self) -> impl Iterator<Item = Finding> {
         let mut sent: BTreeMap<Vec<SocketAddr>, Vec<Numbering>> = BTreeMap::new();
         for (what, senders) in self.mixed() {
             sent.entry(senders).or_default().push(what);
