@@ -45,7 +45,7 @@ pub(super) fn own(file: &File, path: &Path) -> Result<()> {
 
 /// What became of the name of a file that is open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Whereabouts {
+pub(crate) enum Whereabouts {
     /// The file is where it was.
     There,
     /// The file has another name now, or is in another folder.

@@ -23,8 +23,12 @@ pub(super) struct Part {
     written: Arc<AtomicU64>,
     /// How long the file was when it last ended with a whole chunk.
     whole: u64,
-    /// Bytes of messages that are not in the file yet.
+    /// Bytes of messages that are not in the file yet, with what stands around them.
     pending: u64,
+    channels: u64,
+    /// Bytes of what the end repeats of channels and metadata.
+    repeated: u64,
+    chunks: u64,
 }
 
 /// A message to be written.
@@ -63,6 +67,9 @@ impl Part {
             written,
             whole: 0,
             pending: 0,
+            channels: 0,
+            repeated: FOOTER,
+            chunks: 0,
         })
     }
 
@@ -85,8 +92,15 @@ impl Part {
         self.written.load(Ordering::Relaxed).max(self.whole) + self.pending
     }
 
+    /// How long the file will be with its end.
+    pub(super) fn whole_length(&self) -> u64 {
+        let chunks = self.chunks + self.pending.div_ceil(CHUNK);
+        self.length() + self.repeated + chunks * (CHUNK_INDEXED + self.channels * CHANNEL_INDEXED)
+    }
+
     /// Adds a channel for datagrams.
     pub(super) fn raw_channel(&mut self, topic: &str, wire: crate::Wire, keys: &Keys) -> Result<u16> {
+        self.note_channel(topic, keys, 0);
         let added = self.writer.add_channel(0, topic, protocol(wire), keys);
         added.map_err(|error| cannot_write(&self.path, error))
     }
@@ -94,6 +108,7 @@ impl Part {
     /// Adds a channel for poses.
     pub(super) fn pose_channel(&mut self, topic: &str, keys: &Keys) -> Result<u16> {
         let schema = poses::SCHEMA.as_bytes();
+        self.note_channel(topic, keys, schema.len() as u64);
         let schema = self
             .writer
             .add_schema(poses::SCHEMA_NAME, poses::SCHEMA_ENCODING, schema);
@@ -109,12 +124,22 @@ impl Part {
             log_time: at,
             publish_time: at,
         };
-        self.pending += message.data.len() as u64;
+        self.pending += MESSAGE + message.data.len() as u64;
         let written = self.writer.write_to_known_channel(&header, message.data);
         written.map_err(|error| cannot_write(&self.path, error))
     }
 
+    fn note_channel(&mut self, topic: &str, keys: &Keys, schema: u64) {
+        let length = CHANNEL + topic.len() as u64 + length_of(keys) + schema;
+        self.channels += 1;
+        // It stands in the data as well.
+        self.repeated += length;
+        self.pending += length;
+    }
+
     pub(super) fn metadata(&mut self, name: &str, metadata: Keys) -> Result<()> {
+        self.repeated += METADATA_INDEXED + name.len() as u64;
+        self.pending += METADATA_INDEXED + length_of(&metadata);
         let record = Metadata {
             name: name.to_owned(),
             metadata,
@@ -128,6 +153,7 @@ impl Part {
         let flushed = self.writer.flush();
         flushed.map_err(|error| cannot_write(&self.path, error))?;
         self.whole = self.written.load(Ordering::Relaxed);
+        self.chunks += self.pending.div_ceil(CHUNK);
         self.pending = 0;
         Ok(())
     }
@@ -148,8 +174,8 @@ impl Part {
         Ok(self.written.load(Ordering::Relaxed))
     }
 
-    /// Gives the file up after a failure, without the chunk that is torn.
-    pub(super) fn abandon(self) {
+    /// Gives the file up after a failure, without the chunk that is torn. Gives how long it is.
+    pub(super) fn abandon(self) -> u64 {
         let Self {
             writer, file, whole, ..
         } = self;
@@ -158,6 +184,7 @@ impl Part {
         // When this fails too, what comes before the torn chunk can be read all the same.
         let _ = file.set_len(whole);
         let _ = file.unlock();
+        whole
     }
 }
 
@@ -179,6 +206,11 @@ impl Write for Counted {
     }
 }
 
+fn length_of(keys: &Keys) -> u64 {
+    let lengths = keys.iter().map(|(key, value)| key.len() + value.len() + 8);
+    lengths.sum::<usize>() as u64
+}
+
 pub(super) fn cannot_write(path: &Path, error: McapError) -> Error {
     let error = match error {
         McapError::Io(error) => error,
@@ -190,3 +222,11 @@ pub(super) fn cannot_write(path: &Path, error: McapError) -> Error {
 /// A chunk is written when it has so many bytes, or when it has waited long enough.
 const CHUNK: u64 = 1 << 20;
 const BUFFER: usize = 64 << 10;
+/// What a message has around it and in the index, in bytes; so the others.
+const MESSAGE: u64 = 31 + 16;
+const CHANNEL: u64 = 64;
+const CHANNEL_INDEXED: u64 = 10 + 15;
+const CHUNK_INDEXED: u64 = 73 + 57;
+const METADATA_INDEXED: u64 = 64;
+/// The records with which every file ends.
+const FOOTER: u64 = 2048;

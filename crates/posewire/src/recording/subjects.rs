@@ -6,9 +6,10 @@ use super::names::{Names, SubjectId};
 use super::part::{Message, Part};
 use super::poses;
 use crate::{Result, SourceId, clock};
-use posewire_motion::{Frame, Subject};
+use posewire_motion::{Frame, Stamp, Subject};
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// The subjects that were heard of, in all files of a recording.
 #[derive(Debug, Default)]
@@ -19,6 +20,8 @@ pub(super) struct Subjects {
     described: usize,
     left_out: u64,
     message: Vec<u8>,
+    /// Samples that wait for the names of their subjects.
+    waiting: usize,
 }
 
 /// A subject that was heard of.
@@ -29,6 +32,10 @@ struct Known {
     named: Option<Named>,
     /// How often it was described in the present file.
     told: u32,
+    /// Samples from before it had a name, if it has none yet.
+    waiting: Vec<(Stamp, Frame)>,
+    /// Whether it has none although it was waited for.
+    is_nameless: bool,
 }
 
 #[derive(Debug)]
@@ -47,28 +54,85 @@ impl Subjects {
         self.left_out
     }
 
-    /// Describes a subject, if that is news.
-    pub(super) fn note(&mut self, part: &mut Part, source: SourceId, subject: &Arc<Subject>) -> Result<()> {
+    /// Samples of a subject that wait for its name.
+    pub(super) fn held(&self, id: SubjectId) -> u64 {
+        self.known.get(&id).map_or(0, |known| known.waiting.len() as u64)
+    }
+
+    /// Describes a subject, if that is news, and writes the poses that have waited for its name. Gives how many samples it wrote.
+    pub(super) fn note(&mut self, part: &mut Part, source: SourceId, subject: &Arc<Subject>) -> Result<u64> {
         let id = (source, subject.id);
         let known = self.known.get(&id).map(|known| &known.subject);
         if known.is_some_and(|known| Arc::ptr_eq(known, subject) || known == subject) {
-            return Ok(());
+            return Ok(0);
         }
         if self.known.len() >= Self::MOST && !self.known.contains_key(&id) {
             self.left_out += 1;
-            return Ok(());
+            return Ok(0);
         }
         let name = self.names.name(id, subject);
         let named = name.map(|name| Named::new(name, subject));
-        let told = self.known.get(&id).map_or(0, |known| known.told);
-        let subject = Arc::clone(subject);
-        self.known.insert(id, Known { subject, named, told });
-        self.tell(part, id)
+        let known = self.known.entry(id).or_insert_with(|| Known::new(subject));
+        (known.subject, known.named) = (Arc::clone(subject), named);
+        self.tell(part, id)?;
+        if is_nameless(subject) {
+            Ok(0)
+        } else {
+            self.release_one(part, id)
+        }
     }
 
-    /// Writes the poses of a subject that was noted; `false` when it has none in the file.
-    pub(super) fn poses(&mut self, part: &mut Part, source: SourceId, frame: &Frame) -> Result<bool> {
+    /// Writes the poses of a subject that was noted, or lets them wait for its name. Gives how many samples it wrote: none when the
+    /// subject has no poses in the file.
+    pub(super) fn poses(&mut self, part: &mut Part, source: SourceId, frame: &Frame) -> Result<u64> {
         let id = (source, frame.subject.id);
+        let at = frame.received.unwrap_or_else(clock::now);
+        if self.lets_wait(id, at, frame) {
+            return Ok(0);
+        }
+        let waited = self.release_one(part, id)?;
+        Ok(waited + u64::from(self.write(part, id, at, frame)?))
+    }
+
+    /// Writes all poses that wait. Gives how many samples that were.
+    pub(super) fn release(&mut self, part: &mut Part) -> Result<u64> {
+        let waiting = self.known.iter().filter(|(_, known)| !known.waiting.is_empty());
+        let ids: Vec<_> = waiting.map(|(id, _)| *id).collect();
+        let mut written = 0;
+        for id in ids {
+            written += self.release_one(part, id)?;
+        }
+        Ok(written)
+    }
+
+    /// Keeps a sample whose subject has no name yet, as when the stream ran before it was recorded. MVN says the names once a second.
+    fn lets_wait(&mut self, id: SubjectId, at: Stamp, frame: &Frame) -> bool {
+        let Some(known) = self.known.get_mut(&id).filter(|known| !known.is_nameless) else {
+            return false;
+        };
+        let since = known.waiting.first().map_or(at, |(first, _)| *first);
+        let is_long = at.since(since) >= LONGEST_WAIT || self.waiting >= MOST_WAITING;
+        if is_long || known.named.is_none() || !is_nameless(&frame.subject) {
+            known.is_nameless = is_long;
+            return false;
+        }
+        known.waiting.push((at, frame.clone()));
+        self.waiting += 1;
+        true
+    }
+
+    fn release_one(&mut self, part: &mut Part, id: SubjectId) -> Result<u64> {
+        let waiting = self.known.get_mut(&id).map(|known| std::mem::take(&mut known.waiting));
+        let mut written = 0;
+        for (at, frame) in waiting.unwrap_or_default() {
+            self.waiting -= 1;
+            written += u64::from(self.write(part, id, at, &frame)?);
+        }
+        Ok(written)
+    }
+
+    /// Writes a sample; `false` when its subject has no poses in the file.
+    fn write(&mut self, part: &mut Part, id: SubjectId, at: Stamp, frame: &Frame) -> Result<bool> {
         let Some(Known {
             subject,
             named: Some(named),
@@ -77,7 +141,6 @@ impl Subjects {
         else {
             return Ok(false);
         };
-        let at = frame.received.unwrap_or_else(clock::now);
         poses::encode(frame, &named.frames, at, &mut self.message);
         let channel = named.channel(part, id, subject)?;
         part.message(Message {
@@ -104,7 +167,10 @@ impl Subjects {
 
     /// Writes the description of a subject, or counts it when there are too many.
     fn tell(&mut self, part: &mut Part, id: SubjectId) -> Result<()> {
-        let Some(Known { subject, named, told }) = self.known.get_mut(&id) else {
+        let Some(Known {
+            subject, named, told, ..
+        }) = self.known.get_mut(&id)
+        else {
             return Ok(());
         };
         if *told >= MOST_TOLD || self.described >= MOST_DESCRIBED {
@@ -123,6 +189,18 @@ impl Subjects {
             ("description", description),
         ];
         part.metadata(format::SUBJECT_RECORD, keys(record))
+    }
+}
+
+impl Known {
+    fn new(subject: &Arc<Subject>) -> Self {
+        Self {
+            subject: Arc::clone(subject),
+            named: None,
+            told: 0,
+            waiting: Vec::new(),
+            is_nameless: false,
+        }
     }
 }
 
@@ -152,6 +230,14 @@ impl Named {
     }
 }
 
+fn is_nameless(subject: &Subject) -> bool {
+    subject.name.trim().is_empty()
+}
+
+/// For how long of a stream the name of a subject is waited for.
+const LONGEST_WAIT: Duration = Duration::from_millis(1500);
+/// Samples that wait, of all subjects: more than 16 people give in that time.
+const MOST_WAITING: usize = 8192;
 /// Descriptions of one subject in one file: a performer is measured anew a few times a day.
 const MOST_TOLD: u32 = 256;
 /// Bytes of all descriptions in one file, beyond which there are no more.

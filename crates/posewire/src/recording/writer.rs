@@ -2,6 +2,7 @@
 
 use super::briefing::Briefing;
 use super::format::{self, keys};
+use super::lock::Whereabouts;
 use super::part::{Message, Part};
 use super::reminder::Reminder;
 use super::senders::Senders;
@@ -15,7 +16,8 @@ use std::sync::Arc;
 /// How a recording is written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct WriterOptions {
-    /// Begins a new file, `take-002.mcap` after `take.mcap`, as soon as one has about so many bytes.
+    /// Begins a new file, `take-002.mcap` after `take.mcap`, before one has more bytes than these. A [`Writer`] looks whenever it is
+    /// flushed, a [`RecordSink`](crate::sink::RecordSink) before each item.
     pub split: Option<u64>,
     /// Replaces a file that is there. Otherwise that is an error for the first file, and further ones skip its number.
     pub overwrite: bool,
@@ -61,6 +63,8 @@ pub struct Writer {
     subjects: Subjects,
     counts: PartCounts,
     finished_bytes: u64,
+    /// How much of the present file repeats earlier ones.
+    beginning: u64,
 }
 
 /// What is in the present file.
@@ -94,6 +98,7 @@ impl Writer {
             subjects: Subjects::default(),
             counts: PartCounts::default(),
             finished_bytes: 0,
+            beginning: 0,
         };
         writer.introduce()?;
         Ok(writer)
@@ -166,18 +171,19 @@ impl Writer {
     /// As for [`datagram`](Self::datagram).
     pub fn subject(&mut self, source: SourceId, subject: &Arc<Subject>) -> Result<()> {
         let part = open(&mut self.part, &self.first)?;
-        self.subjects.note(part, source, subject)
+        self.counts.frames += self.subjects.note(part, source, subject)?;
+        Ok(())
     }
 
-    /// Writes a sample's poses. One that does not say when it was received is given the present time.
+    /// Writes a sample's poses. One that does not say when it was received is given the present time. Those of a subject that has
+    /// no name yet wait for it, but not for longer than 1.5 s of the stream, so that they are on one channel with the rest.
     ///
     /// # Errors
     /// As for [`datagram`](Self::datagram).
     pub fn frame(&mut self, source: SourceId, frame: &Frame) -> Result<()> {
         let (subjects, part) = (&mut self.subjects, open(&mut self.part, &self.first)?);
-        subjects.note(part, source, &frame.subject)?;
-        let is_written = subjects.poses(part, source, frame)?;
-        self.counts.frames += u64::from(is_written);
+        self.counts.frames += subjects.note(part, source, &frame.subject)?;
+        self.counts.frames += subjects.poses(part, source, frame)?;
         Ok(())
     }
 
@@ -187,7 +193,27 @@ impl Writer {
     /// As for [`datagram`](Self::datagram), and those of creating a file.
     pub fn flush(&mut self) -> Result<()> {
         self.hand_over()?;
-        self.split(0)
+        self.split(0).map(drop)
+    }
+
+    /// Whether the file stays within its limit with so many more bytes. Where those that it must begin with leave hardly any room
+    /// it has some nevertheless.
+    pub(crate) fn has_room_for(&self, bytes: u64) -> bool {
+        let (Some(limit), Some(part)) = (self.options.split, &self.part) else {
+            return true;
+        };
+        let is_little = part.length().saturating_sub(self.beginning) < limit / 4;
+        is_little || part.whole_length() + bytes <= limit
+    }
+
+    /// Whether the present file still has its name; `None` after its end.
+    pub(crate) fn whereabouts(&self) -> Option<Whereabouts> {
+        self.part.as_ref().map(Part::whereabouts)
+    }
+
+    /// Samples of a subject whose poses wait for its name.
+    pub(crate) fn held(&self, source: SourceId, subject: u32) -> u64 {
+        self.subjects.held((source, subject))
     }
 
     /// Hands everything to the system.
@@ -195,12 +221,18 @@ impl Writer {
         self.write(Part::flush)
     }
 
-    /// Begins a new file if this one is long enough. `lost` is for the end of this one, as in [`close`](Self::close).
-    pub(crate) fn split(&mut self, lost: u64) -> Result<()> {
+    /// Begins a new file if this one is long enough, and says whether it was. `lost` is for the end of this one, as in
+    /// [`close`](Self::close).
+    pub(crate) fn split(&mut self, lost: u64) -> Result<bool> {
         let limit = self.options.split.unwrap_or(u64::MAX);
-        if self.part.as_ref().is_none_or(|part| part.length() < limit) {
-            return Ok(());
+        if self.part.as_ref().is_none_or(|part| part.whole_length() < limit) {
+            return Ok(false);
         }
+        self.go_on(lost).map(|()| true)
+    }
+
+    /// Begins a new file.
+    pub(crate) fn go_on(&mut self, lost: u64) -> Result<()> {
         // A file says that it goes on in another only when there is one.
         let next = self.next_part();
         self.end(lost, next.is_ok())?;
@@ -217,7 +249,15 @@ impl Writer {
 
     /// As [`finish`](Self::finish), and notes how many items were `lost` before they came here.
     pub(crate) fn close(&mut self, lost: u64) -> Result<()> {
+        self.release()?;
         self.end(lost, false)
+    }
+
+    /// Writes the poses that wait for the names of their subjects.
+    pub(crate) fn release(&mut self) -> Result<()> {
+        let part = open(&mut self.part, &self.first)?;
+        self.counts.frames += self.subjects.release(part)?;
+        Ok(())
     }
 
     /// Completes the file, which may be `continued` in another.
@@ -240,10 +280,11 @@ impl Writer {
         Ok(())
     }
 
-    /// Gives up after a failure: what was flushed stays, and can be read.
-    pub(crate) fn abandon(&mut self) {
+    /// Gives up after a failure: what was flushed stays, and can be read. Unless the file `is_gone`, in which it is.
+    pub(crate) fn abandon(&mut self, is_gone: bool) {
         if let Some(part) = self.part.take() {
-            part.abandon();
+            let length = part.abandon();
+            self.finished_bytes += if is_gone { 0 } else { length };
         }
     }
 
@@ -255,7 +296,9 @@ impl Writer {
         self.senders = Senders::default();
         self.introduce()?;
         self.subjects.tell_all(open(&mut self.part, &self.first)?)?;
-        self.repeat()
+        self.repeat()?;
+        self.beginning = self.part.as_ref().map_or(0, Part::length);
+        Ok(())
     }
 
     fn next_part(&mut self) -> Result<Part> {
@@ -263,7 +306,7 @@ impl Writer {
             self.suffix += 1;
             let path = numbered(&self.first, self.suffix);
             match Part::create(&path, self.options.overwrite) {
-                Err(Error::Exists { .. }) => {}
+                Err(Error::Exists { .. } | Error::BeingRecorded { .. }) => {}
                 created => return created,
             }
         }
