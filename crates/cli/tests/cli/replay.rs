@@ -15,7 +15,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// A capture of timecodes of one sample each, in turn to so many addresses.
-fn write_capture(path: &Path, count: u32, receivers: u32) -> Vec<Vec<u8>> {
+pub(crate) fn write_capture(path: &Path, count: u32, receivers: u32) -> Vec<Vec<u8>> {
     let mut writer = PcapWriter::create(path, false).unwrap();
     let mut written = Vec::new();
     for number in 0..count {
