@@ -7,7 +7,7 @@ mod server;
 
 pub(crate) use capture::{capture, unread};
 pub(crate) use doctor::print_findings;
-pub(crate) use recording::{losses, recorded, recording, recording_line};
+pub(crate) use recording::{LaterFile, losses, moved, recorded, recording, recording_line, silent, two_senders};
 pub(crate) use server::{delivery, kind, model, unknown_latencies};
 
 use crate::plain::{cut, plural, printable};
