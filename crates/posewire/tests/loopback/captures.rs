@@ -494,14 +494,9 @@ fn frames_of_a_replay_are_copied_to_the_data_port_when_asked() {
     let folder = tempfile::tempdir().unwrap();
     let [whole, path] = ["whole.mcap", "begin.mcap"].map(|name| folder.path().join(name));
     // On a busy machine more is recorded than was asked for, and than a receive buffer holds that nobody reads meanwhile.
-    let recorded = record_natnet(&whole, 200);
-    let is_frame = |datagram: &Datagram| datagram.bytes[0] == 7;
-    let twentieth = recorded
-        .iter()
-        .enumerate()
-        .filter(|(_, datagram)| is_frame(datagram))
-        .nth(19);
-    let sent = &recorded[..=twentieth.expect("so many were waited for").0];
+    let recorded = record_natnet(&whole, 20);
+    let mut places = (0..recorded.len()).filter(|place| recorded[*place].bytes[0] == 7);
+    let sent = &recorded[..=places.nth(4).expect("more were waited for")];
     write(&path, sent);
     // Nobody else may have the port, so that it is one that this test holds.
     let listening = std::net::UdpSocket::bind("127.0.0.1:0").unwrap();
