@@ -88,7 +88,7 @@ fn open(urls: &[String]) -> anyhow::Result<Vec<Source>> {
             }
             .into());
         }
-        sources.push(Source::open(&endpoint, &PlaybackOptions::default())?);
+        sources.extend(Source::open_all(&endpoint, &PlaybackOptions::default())?);
     }
     Ok(sources)
 }

@@ -481,3 +481,14 @@ fn faults_that_natnet_frames_do_not_meet_are_said() {
         ended.err
     );
 }
+
+#[test]
+fn all_sources_of_a_capture_are_recorded() {
+    let folder = tempfile::tempdir().unwrap();
+    write_capture(&folder.path().join("take.pcapng"), 10, 2);
+    let ended = posewire(folder.path(), &["record", "take.pcapng", "-o", "take.mcap"], b"");
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    let recorded = Capture::open(&folder.path().join("take.mcap"), &CaptureOptions::default()).unwrap();
+    let sources = recorded.map(|captured| captured.unwrap().source);
+    assert_eq!(sources.collect::<Vec<_>>(), [0, 1].repeat(5));
+}
