@@ -34,7 +34,7 @@ impl Desk {
     pub(super) fn handle(&mut self, bytes: &[u8], own: impl FnOnce() -> Option<IpAddr>) -> Handled {
         let request = match understood(bytes) {
             Ok(request) => request,
-            Err(refused) => return refused,
+            Err(unread) => return unread.handled(),
         };
         let status = self.controlled.status();
         let answer = match &request {
@@ -114,36 +114,50 @@ impl Desk {
     }
 }
 
-/// What is asked for, or the refusal of it. A request that lacks something is answered, for it may come from a program that waits;
-/// what is no XML is not.
-fn understood(bytes: &[u8]) -> Result<Content, Handled> {
-    let untold = |error: &Error| Handled {
-        answer: None,
-        said: Some(Err(error.to_string())),
-    };
-    let element = Element::decode(bytes).map_err(|error| untold(&error))?;
+/// A message that is not understood.
+struct Unread {
+    /// What it asks for: `StartRecording`; `None` where it is no request, or no XML.
+    request: Option<String>,
+    reason: String,
+}
+
+fn understood(bytes: &[u8]) -> Result<Content, Unread> {
+    let element = Element::decode(bytes).map_err(|error| Unread {
+        request: None,
+        reason: error.to_string(),
+    })?;
     let request = element.name.strip_suffix("Req").map(str::to_owned);
-    let message = Message::of(element).map_err(|error| match request {
-        Some(request) => refused(&request, lack(&error)),
-        None => untold(&error),
+    let message = Message::of(element).map_err(|error| Unread {
+        request,
+        reason: lack(&error),
     })?;
     Ok(message.content)
 }
 
-fn refused(request: &str, reason: String) -> Handled {
-    let said = format!("refused {request}: {reason}");
-    let answer = Content::Ack {
-        request: request.to_owned(),
-        result: false,
-        reason: Some(reason),
-    };
-    Handled {
-        answer: Some(answer.into()),
-        said: Some(Err(said)),
+impl Unread {
+    /// A request that lacks something is answered, as it may come from a program that waits.
+    fn handled(self) -> Handled {
+        let Self { request, reason } = self;
+        let Some(request) = request else {
+            return Handled {
+                answer: None,
+                said: Some(Err(reason)),
+            };
+        };
+        let said = Some(Err(format!("refused {request}: {reason}")));
+        let answer = Content::Ack {
+            request,
+            result: false,
+            reason: Some(reason),
+        };
+        Handled {
+            answer: Some(answer.into()),
+            said,
+        }
     }
 }
 
-/// What is wrong with a request, for who knows which it is.
+/// What is wrong with a message, for who knows which it is.
 fn lack(error: &Error) -> String {
     match error {
         Error::RemoteValue {
