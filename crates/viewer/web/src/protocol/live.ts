@@ -1,0 +1,98 @@
+/** The connection to the server: it comes back by itself, a little later after each attempt that failed. */
+
+import { decodeMessage, type Series, type Tick } from './decode';
+import type { TextMessage } from './statistics';
+
+export type Connection = 'connecting' | 'open' | 'lost';
+
+export interface LiveEvents {
+  tick(tick: Tick): void;
+  series(series: Series): void;
+  text(message: TextMessage): void;
+  /** `retryIn` is in seconds, while the connection is lost. */
+  connection(state: Connection, retryIn: number): void;
+}
+
+export interface PlotRequest {
+  id: number;
+  subject: number;
+  channel: string;
+}
+
+export class Live {
+  private socket: WebSocket | null = null;
+  private failures = 0;
+  private plots: PlotRequest[] = [];
+  private rate = 30;
+  private timer = 0;
+
+  constructor(private readonly events: LiveEvents) {
+    this.open();
+    // A page that comes back from the background, or a network that does, need not wait.
+    window.addEventListener('online', () => this.retry());
+    document.addEventListener('visibilitychange', () => document.hidden || this.retry());
+  }
+
+  /** Asks for so many ticks a second, from 1 to 120. */
+  askRate(hz: number): void {
+    this.rate = hz;
+    this.send({ type: 'rate', hz });
+  }
+
+  /** Asks for these channels and no others. */
+  askPlots(channels: PlotRequest[]): void {
+    this.plots = channels;
+    this.send({ type: 'plot', channels });
+  }
+
+  private open(): void {
+    this.events.connection('connecting', 0);
+    const scheme = location.protocol === 'https:' ? 'wss:' : 'ws:';
+    const socket = new WebSocket(`${scheme}//${location.host}/ws`);
+    socket.binaryType = 'arraybuffer';
+    socket.onopen = () => this.opened();
+    socket.onmessage = (event) => this.take(event.data as string | ArrayBuffer);
+    socket.onclose = () => this.closed(socket);
+    this.socket = socket;
+  }
+
+  private opened(): void {
+    this.failures = 0;
+    this.events.connection('open', 0);
+    this.send({ type: 'rate', hz: this.rate });
+    if (this.plots.length > 0) this.send({ type: 'plot', channels: this.plots });
+  }
+
+  private closed(socket: WebSocket): void {
+    if (this.socket !== socket) return;
+    this.socket = null;
+    const wait = backoff(this.failures++, Math.random());
+    this.events.connection('lost', wait);
+    this.timer = window.setTimeout(() => this.open(), wait * 1000);
+  }
+
+  private retry(): void {
+    if (this.socket) return;
+    window.clearTimeout(this.timer);
+    this.open();
+  }
+
+  private take(data: string | ArrayBuffer): void {
+    if (typeof data === 'string') return this.events.text(JSON.parse(data) as TextMessage);
+    const message = decodeMessage(data);
+    if (message.kind === 'tick') this.events.tick(message.tick);
+    else this.events.series(message.series);
+  }
+
+  private send(message: object): void {
+    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
+  }
+}
+
+/**
+ * Seconds until the next attempt: from 0.25 s it doubles to 4 s. `chance`, 0 to 1, spreads the pages of a room, which
+ * all lost the server at the same moment.
+ */
+export function backoff(failures: number, chance: number): number {
+  return Math.min(4, 0.25 * 2 ** failures) * (0.75 + 0.5 * chance);
+}
