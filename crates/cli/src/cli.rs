@@ -12,6 +12,7 @@ mod stream;
 #[cfg(test)]
 mod tests;
 mod value;
+mod view;
 
 pub(crate) use capture::Capture;
 pub(crate) use convert::{Axes, Convert, OfFormat, Unit};
@@ -22,6 +23,7 @@ pub(crate) use monitor::Monitor;
 pub(crate) use record::Record;
 pub(crate) use replay::Replay;
 pub(crate) use stream::{Playback, Revision, Stream};
+pub(crate) use view::{Page, View};
 
 use clap::{Parser, Subcommand};
 
@@ -59,6 +61,7 @@ Try it without a suit:  posewire demo";
 pub(crate) enum Command {
     Stream(Stream),
     Monitor(Monitor),
+    View(View),
     Record(Record),
     Replay(Replay),
     Inspect(Inspect),

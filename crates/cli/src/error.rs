@@ -31,6 +31,8 @@ pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
         (error.is_usage(), error.help())
     } else if let Some(usage) = error.downcast_ref::<Usage>() {
         (true, Some(usage.help.clone()))
+    } else if let Some(error) = error.downcast_ref::<posewire_viewer::Error>() {
+        (false, error.help())
     } else {
         (
             false,

@@ -1,0 +1,166 @@
+//! Takes that a page plays itself: their frames and series, as it asks for them.
+
+use crate::channel::{self, Channel};
+use crate::scene::{MarkerRecord, Scene, SubjectRecord, TakeRecord};
+use crate::{Error, Result, wire};
+use posewire_motion::{Frame, Section, Take};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Takes that a page plays itself, whole in memory. Clones share them.
+///
+/// Each take's subject is one of the page's; all of them are on one timeline, by when they were received or by their
+/// timecodes where all say, and else beginning together.
+#[derive(Clone, Debug, Default)]
+pub struct Takes {
+    takes: Arc<[Take]>,
+    files: Arc<[String]>,
+    subjects: Arc<[SubjectRecord]>,
+    records: Arc<[TakeRecord]>,
+}
+
+impl Takes {
+    /// The most frames of one answer.
+    pub const MOST_FRAMES: usize = 600;
+
+    /// Takes, each with the name of its file. Those without a frame are left out.
+    pub fn new(takes: impl IntoIterator<Item = (String, Take)>) -> Self {
+        let takes = takes.into_iter().filter(|(_, take)| !take.is_empty());
+        let (files, takes): (Vec<_>, Vec<_>) = takes.unzip();
+        let starts = starts(&takes);
+        let numbered = (0..).zip(&takes);
+        let subjects = numbered.map(|(id, take)| SubjectRecord::new(id, 0, &take.subject, present(take)));
+        let each = takes.iter().zip(&files).zip(starts).zip(0..);
+        let records = each.map(|(((take, file), start), id)| record(id, file, take, start));
+        Self {
+            subjects: subjects.collect(),
+            records: records.collect(),
+            files: named_once(&files),
+            takes: takes.into(),
+        }
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.takes.is_empty()
+    }
+
+    /// The scene as JSON; as a message of the socket, it says so.
+    pub(crate) fn scene(&self, is_message: bool) -> String {
+        let scene = Scene::takes(&self.files, &self.subjects, &self.records);
+        let scene = if is_message { scene.message() } else { scene };
+        serde_json::to_string(&scene).unwrap_or_default()
+    }
+
+    /// The records of `count` frames of a take, the first of which has the place `from`; fewer where it ends.
+    ///
+    /// # Errors
+    /// [`Error::NoTake`], [`Error::NoFrame`] and [`Error::TooManyFrames`] for what there is not.
+    pub(crate) fn frames(&self, take: u32, from: usize, count: usize) -> Result<Vec<u8>> {
+        let found = self.take(take)?;
+        if count > Self::MOST_FRAMES {
+            return Err(Error::TooManyFrames { found: count });
+        }
+        if from >= found.len() {
+            return Err(Error::NoFrame {
+                found: from,
+                frames: found.len(),
+            });
+        }
+        let places: Range<usize> = from..from.saturating_add(count).min(found.len());
+        let (mut out, mut frame) = (Vec::new(), Frame::new(Arc::clone(&found.subject)));
+        for place in places {
+            found.read_frame(place, &mut frame);
+            wire::write_record(take, &frame, &mut out);
+        }
+        Ok(out)
+    }
+
+    /// A channel of every frame of a take, as a series message of number 0.
+    ///
+    /// # Errors
+    /// [`Error::NoTake`] and [`Error::NoChannel`] for what there is not.
+    pub(crate) fn series(&self, take: u32, name: &str) -> Result<Vec<u8>> {
+        let take = self.take(take)?;
+        let missing = || Error::NoChannel { found: name.to_owned() };
+        let channel = Channel::named(name, &take.subject.skeleton).ok_or_else(missing)?;
+        let column = take.column(channel.section()).ok_or_else(missing)?;
+        let times: Vec<_> = take.times().iter().map(std::time::Duration::as_secs_f64).collect();
+        let scaled = |row: &[f64]| (row.get(channel.place()).copied().unwrap_or(f64::NAN) * channel.scale()) as f32;
+        let values: Vec<_> = column.rows().map(scaled).collect();
+        Ok(wire::series(0, &times, &values))
+    }
+
+    fn take(&self, take: u32) -> Result<&Take> {
+        let found = self.takes.get(take as usize);
+        found.ok_or(Error::NoTake {
+            found: take,
+            takes: self.takes.len(),
+        })
+    }
+}
+
+fn record(id: u32, file: &str, take: &Take, start_s: f64) -> TakeRecord {
+    let samples = take.samples();
+    let (first, last) = (samples[0], samples[samples.len() - 1]);
+    let markers = take.events().iter().map(|(frame, name)| MarkerRecord {
+        frame: *frame,
+        name: name.clone(),
+    });
+    let rate_hz = if take.rate > 0.0 { take.rate } else { 1.0 };
+    TakeRecord {
+        id,
+        subject: id,
+        file: file.to_owned(),
+        rate_hz,
+        frames: take.len(),
+        first_sample: first,
+        start_s,
+        duration_s: (f64::from(last.saturating_sub(first)) + 1.0) / rate_hz,
+        gaps: gaps(samples),
+        markers: markers.collect(),
+        start_timecode: take.timecodes()[0].map(|code| code.to_string()),
+    }
+}
+
+/// Per gap in the samples: the place of the frame before it, and how many samples it lacks.
+fn gaps(samples: &[u32]) -> Vec<(usize, u32)> {
+    let steps = samples.windows(2).map(|pair| pair[1].saturating_sub(pair[0]));
+    let gaps = steps.enumerate().filter(|(_, step)| *step > 1);
+    gaps.map(|(before, step)| (before, step - 1)).collect()
+}
+
+/// When each take begins, s after the first of all.
+fn starts(takes: &[Take]) -> Vec<f64> {
+    let received = takes
+        .iter()
+        .map(|take| Some(take.frame(0).received?.nanoseconds() as f64 / 1e9));
+    let timecodes = || {
+        takes
+            .iter()
+            .map(|take| Some(f64::from(take.timecodes()[0]?.milliseconds()) / 1e3))
+    };
+    let known: Option<Vec<f64>> = received.collect();
+    let known = known.or_else(|| timecodes().collect());
+    let Some(known) = known else {
+        return vec![0.0; takes.len()];
+    };
+    let first = known.iter().copied().fold(f64::INFINITY, f64::min);
+    known.into_iter().map(|at| at - first).collect()
+}
+
+fn present(take: &Take) -> u32 {
+    let sections: &mut dyn Iterator<Item = Section> = &mut take.sections();
+    sections.fold(0, |bits, section| bits | channel::bit(section))
+}
+
+/// The files, each once.
+fn named_once(files: &[String]) -> Arc<[String]> {
+    let mut names: Vec<String> = Vec::new();
+    for file in files {
+        if !names.contains(file) {
+            names.push(file.clone());
+        }
+    }
+    names.into()
+}
