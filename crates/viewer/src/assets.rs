@@ -82,8 +82,8 @@ fn media_type(name: &str) -> &'static str {
 }
 
 const HTML: &str = "text/html; charset=utf-8";
-const MISSING: &str = "<!doctype html><meta charset=utf-8><title>posewire</title><p>The page is not in this build: install \
-    Node.js 20 and build posewire again.";
+const MISSING: &str = "<!doctype html><meta charset=utf-8><title>posewire</title><p>This build of posewire is without its \
+    page: install Node.js 20 or newer, then run <code>cargo clean -p posewire-viewer</code> and build again.";
 /// Everything from this server, nothing from elsewhere, and no code made of text.
 const POLICY: &str = "default-src 'self'; img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'; \
     worker-src 'self' blob:; connect-src 'self'; object-src 'none'; base-uri 'none'; form-action 'none'; \
