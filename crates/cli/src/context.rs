@@ -1,7 +1,7 @@
 //! What every verb needs of its surroundings: the wish to stop, the terminal, people to talk to.
 
 use posewire::stop::Stop;
-use posewire::{Item, Result, Sink, SourceId};
+use posewire::{Item, Result, Sink, SourceId, Wants};
 use std::io::{IsTerminal, Write};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -99,6 +99,13 @@ impl Teller {
 }
 
 impl Sink for Teller {
+    fn wants(&self) -> Wants {
+        Wants {
+            frames: false,
+            datagrams: false,
+        }
+    }
+
     fn accept(&mut self, _: SourceId, item: &Item) -> Result<()> {
         match item {
             Item::Notice(notice) => {
@@ -110,6 +117,11 @@ impl Sink for Teller {
         }
         Ok(())
     }
+}
+
+/// Whether [`show_progress`] shows something.
+pub(crate) fn shows_progress() -> bool {
+    std::io::stderr().is_terminal()
 }
 
 /// Shows how far it has come, in place, when the standard error is a terminal.

@@ -24,6 +24,14 @@ use serde::{Serialize, Serializer};
 use std::io::Write;
 use std::time::Duration;
 
+/// What a record says, and which source of a capture it is of.
+#[derive(Serialize)]
+pub(crate) struct OfSource<'a, T> {
+    #[serde(flatten)]
+    pub(crate) record: &'a T,
+    pub(crate) source: u16,
+}
+
 /// Prints one object on a line of its own.
 pub(crate) fn print(value: &impl Serialize) -> Result<(), Error> {
     write(&mut std::io::stdout().lock(), value)

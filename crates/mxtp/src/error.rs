@@ -89,4 +89,26 @@ pub enum Error {
         /// How many were given.
         found: usize,
     },
+    /// A message of the remote control that is no XML, or XML that only an attacker sends.
+    #[error("remote control: expected {expected} at offset {offset}, found {found:?}")]
+    RemoteXml {
+        /// What must be there.
+        expected: &'static str,
+        /// What is.
+        found: String,
+        /// Where, in bytes, behind what is passed over at the beginning.
+        offset: usize,
+    },
+    /// A value that an attribute of a remote control's message cannot have.
+    #[error("remote control: {message}: expected {expected} as {field}, found {found:?}")]
+    RemoteValue {
+        /// The message's name.
+        message: String,
+        /// The attribute.
+        field: &'static str,
+        /// What it must be.
+        expected: &'static str,
+        /// What it is.
+        found: String,
+    },
 }

@@ -28,6 +28,7 @@
 pub mod body;
 pub mod ids;
 pub mod motion;
+pub mod remote;
 
 mod assembler;
 mod datagram;

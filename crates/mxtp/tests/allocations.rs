@@ -88,3 +88,30 @@ fn nothing_is_allocated_once_samples_and_descriptions_repeat() {
     let counts = allocation_counter::measure(|| frames = (0..100).map(|_| run()).sum());
     assert_eq!((counts.count_total, frames), (0, 100));
 }
+
+#[test]
+fn frames_that_are_held_for_three_samples_are_used_again() {
+    let (mut sent, mut encoder, mut datagrams) = (frame(), Encoder::new(EncoderOptions::default()), Datagrams::new());
+    let (mut assembler, mut held) = (Assembler::new(), [None, None, None]);
+    let mut run = || {
+        sent.sample += 1;
+        datagrams.clear();
+        encoder.encode_frame(&sent, &mut datagrams);
+        for bytes in datagrams.iter() {
+            assembler.handle(Stamp(4_000_000 * i64::from(sent.sample)), bytes);
+        }
+        while let Some(event) = assembler.poll() {
+            if let Event::Frame(frame) = event {
+                held.rotate_left(1);
+                held[2] = Some(frame);
+            }
+        }
+    };
+    (0..300).for_each(|_| run());
+    let counts = allocation_counter::measure(|| (0..100).for_each(|_| run()));
+    assert_eq!(counts.count_total, 0);
+    assert_eq!(
+        held.map(|frame| frame.map(|frame| frame.sample)),
+        [Some(398), Some(399), Some(400)]
+    );
+}

@@ -167,6 +167,16 @@ pub enum Error {
         /// The sources that there are, each its number and endpoint.
         found: Vec<String>,
     },
+    /// A recording that was split, of which a file is not there.
+    #[error("{}: part {part} of the recording is missing, expected before {}", path.display(), next.display())]
+    MissingPart {
+        /// The first file.
+        path: PathBuf,
+        /// Which part is missing, from 1.
+        part: u32,
+        /// The file that comes after it.
+        next: PathBuf,
+    },
     /// A stream rate for a capture, whose datagrams come when they came.
     #[error("expected no rate for a capture, found {found}")]
     CaptureRate {

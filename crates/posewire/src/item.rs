@@ -1,5 +1,7 @@
 //! What travels from a source to its sinks.
 
+mod weight;
+
 use crate::stats::Statistics;
 use crate::{Datagram, Error};
 use posewire_motion::{Frame, Subject};

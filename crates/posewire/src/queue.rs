@@ -1,7 +1,8 @@
 //! Bounded queues between a source and its sinks: never an unbounded one, never a silent drop.
 //!
 //! The sink picks the [`Policy`]; whatever is dropped is counted. An item is what is kept or
-//! dropped as a whole: to drop whole samples, push the datagrams of a sample as one item.
+//! dropped as a whole: to drop whole samples, push the datagrams of a sample as one item. What items
+//! of very different sizes weigh together is bounded by [`bounded_by_weight`].
 //!
 //! ```
 //! use posewire::queue::{Policy, bounded};
@@ -21,6 +22,7 @@
 //! ```
 
 use std::collections::VecDeque;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -59,10 +61,20 @@ impl Drained {
 /// A queue of at most `capacity` items, at least 1. It closes when its last producer or its
 /// consumer goes; what was pushed before can still be drained.
 pub fn bounded<T>(capacity: usize, policy: Policy) -> (Producer<T>, Consumer<T>) {
+    bounded_by_weight(capacity, (usize::MAX, |_| 0), policy)
+}
+
+/// As [`bounded`], and the items weigh no more than `most` together, in whatever unit `weigh` has. One that alone weighs
+/// more is taken when the queue is empty.
+pub fn bounded_by_weight<T>(
+    capacity: usize,
+    (most, weigh): (usize, fn(&T) -> usize),
+    policy: Policy,
+) -> (Producer<T>, Consumer<T>) {
     let shared = Arc::new(Shared {
         state: Mutex::new(State {
             items: VecDeque::new(),
-            dropped: 0,
+            weight: 0,
             producers: 1,
             closed: false,
             consumer_waits: false,
@@ -70,7 +82,10 @@ pub fn bounded<T>(capacity: usize, policy: Policy) -> (Producer<T>, Consumer<T>)
         }),
         arrived: Condvar::new(),
         drained: Condvar::new(),
+        dropped: Arc::default(),
         capacity: capacity.max(1),
+        most,
+        weigh,
         policy,
     });
     let producer = Producer {
@@ -96,14 +111,18 @@ struct Shared<T> {
     state: Mutex<State<T>>,
     arrived: Condvar,
     drained: Condvar,
+    dropped: Arc<AtomicU64>,
     capacity: usize,
+    most: usize,
+    weigh: fn(&T) -> usize,
     policy: Policy,
 }
 
 #[derive(Debug)]
 struct State<T> {
-    items: VecDeque<T>,
-    dropped: u64,
+    /// Each with its weight.
+    items: VecDeque<(usize, T)>,
+    weight: usize,
     producers: usize,
     closed: bool,
     consumer_waits: bool,
@@ -117,9 +136,11 @@ impl<T> Producer<T> {
     /// # Errors
     /// [`Closed`] when the consumer has gone or the queue was closed, also while waiting.
     pub fn push(&self, item: T) -> Result<(), Closed> {
-        let mut state = self.shared.room(self.shared.lock())?;
-        // Freed at the end of this function, outside of the lock.
-        let _oldest = self.shared.add(&mut state, item);
+        // What has to go is freed at the end of this function, outside of the lock; so it is below.
+        let mut gone = Vec::new();
+        let item = self.shared.weighed(item);
+        let mut state = self.shared.room(self.shared.lock(), item.0)?;
+        self.shared.add(&mut state, item, &mut gone);
         self.shared.release(state);
         Ok(())
     }
@@ -130,10 +151,12 @@ impl<T> Producer<T> {
     /// # Errors
     /// [`Closed`] as for `push`; the items that found no place are gone.
     pub fn push_all(&self, items: &mut Vec<T>) -> Result<(), Closed> {
+        let mut gone = Vec::new();
         let mut state = self.shared.lock();
         for item in items.drain(..) {
-            state = self.shared.room(state)?;
-            self.shared.add(&mut state, item);
+            let item = self.shared.weighed(item);
+            state = self.shared.room(state, item.0)?;
+            self.shared.add(&mut state, item, &mut gone);
         }
         self.shared.release(state);
         Ok(())
@@ -145,20 +168,22 @@ impl<T> Producer<T> {
     /// # Errors
     /// [`Closed`] when the consumer has gone or the queue was closed; the items are gone.
     pub fn push_all_or_drop(&self, items: &mut Vec<T>) -> Result<(), Closed> {
+        let mut gone = Vec::new();
         let mut state = self.shared.lock();
         if state.closed {
             items.clear();
             return Err(Closed);
         }
-        let room = match self.shared.policy {
-            Policy::Newest => items.len(),
-            Policy::Lossless => self.shared.capacity.saturating_sub(state.items.len()),
-        };
-        // Freed at the end of this function, outside of the lock.
-        let refused = items.split_off(room.min(items.len()));
-        state.dropped += refused.len() as u64;
-        for item in items.drain(..) {
-            self.shared.add(&mut state, item);
+        let mut items = items.drain(..);
+        while let Some(item) = items.next() {
+            let item = self.shared.weighed(item);
+            if self.shared.policy == Policy::Lossless && !self.shared.fits(&state, item.0) {
+                gone.push(item.1);
+                gone.extend(items);
+                self.shared.count(gone.len());
+                break;
+            }
+            self.shared.add(&mut state, item, &mut gone);
         }
         self.shared.release(state);
         Ok(())
@@ -166,7 +191,12 @@ impl<T> Producer<T> {
 
     /// How many items were dropped so far.
     pub fn dropped(&self) -> u64 {
-        self.shared.lock().dropped
+        self.shared.dropped.load(Ordering::Relaxed)
+    }
+
+    /// Goes on telling how many items were dropped, without keeping the queue open.
+    pub(crate) fn drops(&self) -> Arc<AtomicU64> {
+        Arc::clone(&self.shared.dropped)
     }
 
     /// Whether nothing more can be pushed.
@@ -205,7 +235,12 @@ impl<T> Consumer<T> {
                 Drained::Nothing
             };
         }
-        into.extend(state.items.drain(..count));
+        let mut taken = 0;
+        into.extend(state.items.drain(..count).map(|(weight, item)| {
+            taken += weight;
+            item
+        }));
+        state.weight = state.weight.saturating_sub(taken);
         if state.producers_waiting > 0 {
             self.shared.drained.notify_all();
         }
@@ -214,7 +249,7 @@ impl<T> Consumer<T> {
 
     /// How many items were dropped so far.
     pub fn dropped(&self) -> u64 {
-        self.shared.lock().dropped
+        self.shared.dropped.load(Ordering::Relaxed)
     }
 
     /// How many items wait to be drained.
@@ -238,9 +273,19 @@ impl<T> Shared<T> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    fn weighed(&self, item: T) -> (usize, T) {
+        ((self.weigh)(&item), item)
+    }
+
+    /// Whether there is room for so much more.
+    fn fits(&self, state: &State<T>, weight: usize) -> bool {
+        let is_light = state.items.is_empty() || state.weight.saturating_add(weight) <= self.most;
+        is_light && state.items.len() < self.capacity
+    }
+
     /// Waits for room where the policy says so.
-    fn room<'a>(&self, mut state: MutexGuard<'a, State<T>>) -> Result<MutexGuard<'a, State<T>>, Closed> {
-        while self.policy == Policy::Lossless && state.items.len() >= self.capacity && !state.closed {
+    fn room<'a>(&self, mut state: MutexGuard<'a, State<T>>, weight: usize) -> Result<MutexGuard<'a, State<T>>, Closed> {
+        while self.policy == Policy::Lossless && !self.fits(&state, weight) && !state.closed {
             if std::mem::take(&mut state.consumer_waits) {
                 self.arrived.notify_one();
             }
@@ -251,13 +296,21 @@ impl<T> Shared<T> {
         if state.closed { Err(Closed) } else { Ok(state) }
     }
 
-    /// Adds an item and gives back the one that had to go for it.
-    fn add(&self, state: &mut State<T>, item: T) -> Option<T> {
-        let full = state.items.len() >= self.capacity;
-        let oldest = if full { state.items.pop_front() } else { None };
-        state.dropped += u64::from(full);
+    /// Adds an item, and moves those that have to go for it to the end of `gone`.
+    fn add(&self, state: &mut State<T>, item: (usize, T), gone: &mut Vec<T>) {
+        while !self.fits(state, item.0)
+            && let Some((weight, oldest)) = state.items.pop_front()
+        {
+            state.weight = state.weight.saturating_sub(weight);
+            gone.push(oldest);
+            self.count(1);
+        }
+        state.weight = state.weight.saturating_add(item.0);
         state.items.push_back(item);
-        oldest
+    }
+
+    fn count(&self, dropped: usize) {
+        self.dropped.fetch_add(dropped as u64, Ordering::Relaxed);
     }
 
     /// Unlocks, and wakes the consumer only if it waits and there is something for it: woken for nothing, it would wait on
@@ -307,154 +360,4 @@ impl<T> Drop for Consumer<T> {
 }
 
 #[cfg(test)]
-mod tests {
-    use std::thread;
-
-    use super::*;
-
-    const LONG: Duration = Duration::from_mins(1);
-
-    fn drain_all<T>(consumer: &Consumer<T>) -> Vec<T> {
-        let mut taken = Vec::new();
-        while consumer.drain(&mut taken, LONG).is_open() {}
-        taken
-    }
-
-    #[test]
-    fn a_consumer_that_waits_while_nothing_is_pushed_hears_of_the_next_item() {
-        let (producer, consumer) = bounded(1, Policy::Lossless);
-        thread::scope(|scope| {
-            let waiting = scope.spawn(|| drain_all(&consumer));
-            while !producer.shared.lock().consumer_waits {
-                thread::yield_now();
-            }
-            producer.push_all(&mut Vec::new()).unwrap();
-            producer.push_all_or_drop(&mut Vec::new()).unwrap();
-            assert!(producer.shared.lock().consumer_waits);
-            producer.push_all(&mut vec![1, 2, 3]).unwrap();
-            drop(producer);
-            assert_eq!(waiting.join().unwrap(), [1, 2, 3]);
-        });
-    }
-
-    #[test]
-    fn newest_keeps_the_last_and_counts_the_rest() {
-        let (producer, consumer) = bounded(3, Policy::Newest);
-        producer.push_all(&mut (0..10).collect()).unwrap();
-        assert_eq!(producer.push_all_or_drop(&mut vec![10]), Ok(()));
-        assert_eq!((consumer.len(), producer.dropped()), (3, 8));
-        drop(producer);
-        assert_eq!(drain_all(&consumer), [8, 9, 10]);
-    }
-
-    #[test]
-    fn a_full_lossless_queue_drops_only_what_a_live_producer_brings() {
-        let (producer, consumer) = bounded(2, Policy::Lossless);
-        (0..5).for_each(|n| producer.push_all_or_drop(&mut vec![n]).unwrap());
-        assert_eq!(consumer.dropped(), 3);
-        drop(producer);
-        assert_eq!(drain_all(&consumer), [0, 1]);
-    }
-
-    #[test]
-    fn a_live_batch_fills_what_room_there_is() {
-        for (policy, left) in [(Policy::Lossless, [0, 1, 2]), (Policy::Newest, [2, 3, 4])] {
-            let (producer, consumer) = bounded(3, policy);
-            let mut batch = vec![0, 1];
-            producer.push_all_or_drop(&mut batch).unwrap();
-            batch.extend([2, 3, 4]);
-            producer.push_all_or_drop(&mut batch).unwrap();
-            assert_eq!((batch.len(), consumer.dropped()), (0, 2));
-            consumer.close();
-            assert_eq!(producer.push_all_or_drop(&mut vec![5]), Err(Closed));
-            assert_eq!(drain_all(&consumer), left);
-        }
-    }
-
-    #[test]
-    fn a_group_is_dropped_whole() {
-        let (producer, consumer) = bounded(1, Policy::Newest);
-        producer.push(vec!["pose 1", "joints 1"]).unwrap();
-        producer.push(vec!["pose 2", "joints 2"]).unwrap();
-        drop(producer);
-        assert_eq!(drain_all(&consumer), [["pose 2", "joints 2"]]);
-        assert_eq!(consumer.dropped(), 1);
-    }
-
-    #[test]
-    fn lossless_producers_wait_and_every_item_arrives_in_order() {
-        let (producer, consumer) = bounded(4, Policy::Lossless);
-        let producers: Vec<_> = (0..3u32)
-            .map(|id| (id, producer.clone()))
-            .map(|(id, producer)| {
-                thread::spawn(move || {
-                    for batch in 0..200u32 {
-                        let mut items: Vec<_> = (0..10).map(|n| (id, batch * 10 + n)).collect();
-                        producer.push_all(&mut items).unwrap();
-                    }
-                })
-            })
-            .collect();
-        drop(producer);
-        let taken = drain_all(&consumer);
-        for thread in producers {
-            thread.join().unwrap();
-        }
-        for id in 0..3 {
-            let numbers = taken.iter().filter(|item| item.0 == id).map(|item| item.1);
-            assert!(numbers.eq(0..2000), "producer {id}");
-        }
-        assert_eq!((taken.len(), consumer.dropped()), (6000, 0));
-    }
-
-    #[test]
-    fn newest_loses_nothing_uncounted_between_threads() {
-        let (producer, consumer) = bounded(8, Policy::Newest);
-        let sender = thread::spawn(move || (0..50_000u32).try_for_each(|n| producer.push(n)));
-        let taken = drain_all(&consumer);
-        assert_eq!(sender.join().unwrap(), Ok(()));
-        assert!(taken.is_sorted());
-        assert_eq!(taken.len() as u64 + consumer.dropped(), 50_000);
-        assert_eq!(taken.last(), Some(&49_999));
-    }
-
-    #[test]
-    fn a_waiting_consumer_is_woken_by_an_item() {
-        let (producer, consumer) = bounded(1, Policy::Newest);
-        let waiting = thread::spawn(move || consumer.drain(&mut Vec::new(), LONG));
-        producer.push(1).unwrap();
-        assert_eq!(waiting.join().unwrap(), Drained::Items(1));
-    }
-
-    #[test]
-    fn an_idle_queue_gives_nothing_in_time() {
-        let (_producer, consumer) = bounded::<u8>(1, Policy::Newest);
-        assert_eq!(consumer.drain(&mut Vec::new(), Duration::ZERO), Drained::Nothing);
-        assert_eq!(
-            consumer.drain(&mut Vec::new(), Duration::from_millis(1)),
-            Drained::Nothing
-        );
-        assert!(consumer.is_empty());
-    }
-
-    #[test]
-    fn closing_frees_a_blocked_producer_and_refuses_more() {
-        let (producer, consumer) = bounded(1, Policy::Lossless);
-        producer.push(1).unwrap();
-        let other = producer.clone();
-        let blocked = thread::spawn(move || other.push(2));
-        drop(consumer);
-        assert_eq!(blocked.join().unwrap(), Err(Closed));
-        assert_eq!(producer.push(3), Err(Closed));
-        assert_eq!(producer.push_all_or_drop(&mut vec![3]), Err(Closed));
-    }
-
-    #[test]
-    fn what_was_pushed_before_the_close_is_still_drained() {
-        let (producer, consumer) = bounded(2, Policy::Lossless);
-        producer.push(1).unwrap();
-        producer.close();
-        assert_eq!(drain_all(&consumer), [1]);
-        assert_eq!(consumer.drain(&mut Vec::new(), LONG), Drained::Closed);
-    }
-}
+mod tests;

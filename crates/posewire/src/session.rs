@@ -1,9 +1,10 @@
 //! Sources and the sinks they feed, each on a thread of its own.
 
-use crate::queue::{Closed, Consumer, Producer, bounded};
+use crate::queue::{Closed, Consumer, Producer, bounded_by_weight};
 use crate::stop::Stop;
 use crate::{Datagram, Item, Notice, Result, Sink, Source, SourceId, Wants};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
@@ -17,6 +18,8 @@ pub struct Session {
     stop: Stop,
     sources: Vec<JoinHandle<Result<()>>>,
     sinks: Vec<JoinHandle<Result<u64>>>,
+    /// What the queue of each sink has dropped.
+    drops: Vec<Arc<AtomicU64>>,
 }
 
 /// How a session ended.
@@ -33,6 +36,7 @@ impl Session {
     /// no machine has the ports for, are not started.
     pub fn start(sources: impl IntoIterator<Item = Source>, sinks: Vec<Box<dyn Sink>>, stop: Stop) -> Self {
         let (feeders, sinks): (Vec<_>, _) = sinks.into_iter().map(|sink| start_sink(sink, stop.clone())).unzip();
+        let drops = feeders.iter().map(|feeder: &Feeder| feeder.producer.drops()).collect();
         let sources: Vec<_> = (0..=u16::MAX).map(SourceId).zip(sources).collect();
         let alone = sources.len() == 1;
         let start = |(id, source): (SourceId, Source)| {
@@ -41,7 +45,19 @@ impl Session {
             thread::spawn(move || run_source(source, outlet, alone, &stop))
         };
         let sources = sources.into_iter().map(start).collect();
-        Self { stop, sources, sinks }
+        Self {
+            stop,
+            sources,
+            sinks,
+            drops,
+        }
+    }
+
+    /// Items that the queue of this sink has dropped so far, known also while the sink is stuck; 0 for a sink that is not there.
+    pub fn dropped(&self, sink: usize) -> u64 {
+        self.drops
+            .get(sink)
+            .map_or(0, |dropped| dropped.load(Ordering::Relaxed))
     }
 
     /// Whether a source still runs.
@@ -80,7 +96,8 @@ fn run_source(source: Source, mut outlet: Outlet, alone: bool, stop: &Stop) -> R
 
 fn start_sink(mut sink: Box<dyn Sink>, stop: Stop) -> (Feeder, JoinHandle<Result<u64>>) {
     let (policy, capacity) = sink.queue();
-    let (producer, consumer) = bounded(capacity, policy);
+    let weigh = |(_, item): &(SourceId, Item)| item.weight();
+    let (producer, consumer) = bounded_by_weight(capacity, (MOST_BYTES, weigh), policy);
     let wants = sink.wants();
     let thread = thread::spawn(move || {
         let fed = feed(sink.as_mut(), &consumer);
@@ -201,11 +218,14 @@ impl Outlet {
     }
 }
 
+/// What a queue holds at most, whatever the number of its items; a sink has as much in its hands at worst.
+const MOST_BYTES: usize = 128 << 20;
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::Wire;
-    use crate::queue::Policy;
+    use crate::queue::{Policy, bounded};
     use posewire_motion::Stamp;
 
     fn notice(number: u32) -> Item {

@@ -1,6 +1,6 @@
 //! The arguments of `posewire convert`.
 
-use super::value::{rate, sample, seconds, section};
+use super::value::{Only, only, rate, sample, seconds};
 use clap::{Args, ValueEnum};
 use posewire::endpoint::FileFormat;
 use posewire_motion::Section;
@@ -32,7 +32,8 @@ Examples:
   posewire convert monday/walk.mvnx tuesday/run.mvnx.gz for_opensim/ --format trc
   posewire convert take.mvnx take.npz --rate 100 --axes unity
   posewire convert \"synthetic:walk?fingers=true\" --duration 10 walk.glb
-  posewire convert mxtp://0.0.0.0 live.mvnx               until Ctrl-C, a file for each subject"
+  posewire convert mxtp://0.0.0.0 live.mvnx               until Ctrl-C, a file for each subject
+  posewire convert take.mcap take.npz --only 0            of a recording, what its first source sent"
 )]
 pub(crate) struct Convert {
     /// IN: takes (.mvnx, .mvnx.gz), synthetic:walk with --duration, or a live stream. OUT: the file to write, its format told
@@ -65,9 +66,9 @@ pub(crate) struct Convert {
     #[arg(long, value_enum, ignore_case = true)]
     pub(crate) unit: Option<Unit>,
 
-    /// Write these sections alone, with commas, as in position,orientation.
-    #[arg(long, value_name = "SECTION,...", value_delimiter = ',', value_parser = section, long_help = SECTIONS)]
-    pub(crate) only: Vec<Section>,
+    /// Write these sections alone, with commas, as in position,orientation; of a capture also: only this source.
+    #[arg(long, value_name = "SECTION,...", value_delimiter = ',', value_parser = only, long_help = SECTIONS)]
+    pub(crate) only: Vec<Only>,
 
     /// Replace files that are there already.
     #[arg(long)]
@@ -95,7 +96,32 @@ angular_acceleration, joint_angles, joint_angles_xzy, ergonomic_angles, ergonomi
 sensor_free_acceleration, sensor_acceleration, sensor_angular_velocity, sensor_magnetic_field, center_of_mass, \
 center_of_mass_velocity, center_of_mass_acceleration.
 
-One that the take lacks is computed where that is possible.";
+One that the take lacks is computed where that is possible.
+
+Of a recording or capture with several sources: use only this one, by its number or a part of its name, as in --only 0; \
+--only 0,position is that source and that section.";
+
+impl Convert {
+    /// The sections that were named.
+    pub(crate) fn sections(&self) -> Vec<Section> {
+        let section = |only: &Only| match only {
+            Only::Section(section) => Some(*section),
+            Only::Source(_) => None,
+        };
+        self.only.iter().filter_map(section).collect()
+    }
+
+    /// What was named that is no section: sources of captures.
+    pub(crate) fn sources(&self) -> Vec<&str> {
+        let mut sources = Vec::new();
+        for only in &self.only {
+            if let Only::Source(source) = only {
+                sources.push(source.as_str());
+            }
+        }
+        sources
+    }
+}
 
 /// What one format alone can have.
 #[derive(Debug, Args)]

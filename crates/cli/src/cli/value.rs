@@ -45,6 +45,22 @@ pub(super) fn section(text: &str) -> Result<Section, String> {
     })
 }
 
+/// What of an input is used: the name of a section, or else a source of a capture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Only {
+    Section(Section),
+    /// By its number or a part of its name. Which there are, the capture says.
+    Source(String),
+}
+
+pub(super) fn only(text: &str) -> Result<Only, String> {
+    match section(text) {
+        Ok(section) => Ok(Only::Section(section)),
+        Err(expected) if text.trim().is_empty() => Err(expected),
+        Err(_) => Ok(Only::Source(text.trim().to_owned())),
+    }
+}
+
 pub(super) fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = text
         .parse()

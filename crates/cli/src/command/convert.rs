@@ -91,7 +91,7 @@ fn convert(plan: &Plan, job: &Job, stops: &Stops) -> anyhow::Result<Done> {
             (write_all(plan, job, takes, stops, began), 0)
         }
         Source::Live(endpoint) => {
-            let (takes, lost) = capture::live(endpoint, plan.duration, stops)?;
+            let (takes, lost) = capture::live(endpoint, plan.only.as_deref(), plan.duration, stops)?;
             (write_all(plan, job, takes, stops, Instant::now()), lost)
         }
     };

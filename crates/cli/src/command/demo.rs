@@ -27,7 +27,7 @@ pub(super) fn run(arguments: &Demo) -> anyhow::Result<End> {
     context::stop_after(&stop, arguments.duration);
     let streaming = Session::start([walkers], vec![Box::new(sink)], stop.clone());
     let end = monitor::show(
-        monitored,
+        vec![monitored],
         View::choose(arguments.json, false, arguments.plain),
         None,
         &stop,

@@ -2,7 +2,7 @@
 
 use super::End;
 use crate::cli::Record;
-use crate::context::{self, Teller, end_progress, say, show_progress};
+use crate::context::{self, Teller, end_progress, say, show_progress, shows_progress};
 use crate::error::Usage;
 use crate::{json, render};
 use posewire::endpoint::Endpoint;
@@ -64,18 +64,22 @@ fn watch(session: &Session, progress: &Mutex<RecordProgress>, json: bool, stop: 
     let begun = Instant::now();
     let mut rate = Rate::new(begun);
     let mut next = begun + EVERY;
-    let mut shouted = 0;
+    let mut line = (!json && !shows_progress()).then_some(begun + LINE_EVERY);
+    let mut shouts = Shouts::default();
     let mut quiet = Some(begun + QUIET);
     while session.is_running() && !stop.wait(LOOK_EVERY) {
-        let progress = read(progress);
+        let mut progress = read(progress);
+        // A recorder that is stuck in a write says nothing itself.
+        progress.dropped = progress.dropped.max(session.dropped(RECORDER));
         let now = Instant::now();
         rate.note(now, progress.datagrams());
-        show_progress(render::recording_line(&progress, rate.per_second, begun.elapsed()));
-        if progress.lost() > shouted {
-            shouted = progress.lost();
-            end_progress();
-            say(render::losses(&progress));
+        let shown = render::recording_line(&progress, rate.per_second, begun.elapsed());
+        if let Some(due) = line.as_mut().filter(|due| now >= **due) {
+            *due = now + LINE_EVERY;
+            say(&shown);
         }
+        show_progress(shown);
+        shouts.heed(now, &progress);
         if quiet.is_some_and(|quiet| now >= quiet) {
             quiet = None;
             end_progress();
@@ -88,6 +92,24 @@ fn watch(session: &Session, progress: &Mutex<RecordProgress>, json: bool, stop: 
         }
     }
     Ok(())
+}
+
+/// What is said of losses: at once, and then no more often than once a second.
+#[derive(Default)]
+struct Shouts {
+    lost: u64,
+    last: Option<Instant>,
+}
+
+impl Shouts {
+    fn heed(&mut self, now: Instant, progress: &RecordProgress) {
+        let is_early = self.last.is_some_and(|last| now < last + EVERY);
+        if progress.lost() > self.lost && !is_early {
+            (self.lost, self.last) = (progress.lost(), Some(now));
+            end_progress();
+            say(render::losses(progress));
+        }
+    }
 }
 
 /// Says which sources nothing has come from.
@@ -152,4 +174,8 @@ impl Rate {
 const MEGABYTE: u64 = 1_000_000;
 const LOOK_EVERY: Duration = Duration::from_millis(100);
 const EVERY: Duration = Duration::from_secs(1);
+/// Between lines where they cannot be shown in place, as in the log of a service.
+const LINE_EVERY: Duration = Duration::from_secs(10);
+/// The place of the recorder among the sinks.
+const RECORDER: usize = 0;
 const QUIET: Duration = Duration::from_secs(3);

@@ -30,27 +30,30 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
     refuse::endless(&from, &targets)?;
     let plan = arguments.faults.as_deref().map(str::parse::<FaultPlan>).transpose()?;
     refuse::capture(&arguments.playback.capture, &from)?;
-    let source = Source::open(&from, &playback_options(&arguments.playback, &targets))?;
-    if source.is_live() {
+    let sources = Source::open_all(&from, &playback_options(&arguments.playback, &targets))?;
+    let is_live = sources.iter().any(Source::is_live);
+    if is_live {
         refuse::playback(&arguments.playback)?;
         context::stop_after(&stop, arguments.playback.duration);
     }
-    refuse::endless(source.endpoint(), &targets)?;
-    let sinks = Sinks::open(arguments, &source, &targets, plan.as_ref())?;
+    for source in &sources {
+        refuse::endless(source.endpoint(), &targets)?;
+    }
+    let sinks = Sinks::open(arguments, &sources, &targets, plan.as_ref())?;
     let progress = sinks.progress();
-    announce(&source, sinks.types, &progress.read());
+    announce(&sources, sinks.types, &progress.read());
     if let Some(plan) = &plan {
         say(format_args!("faults on purpose: {plan}"));
     }
     let mut peers = Peers::of(&progress.read());
-    if !source.is_live() && !arguments.no_wait && !sinks.is_ready() {
+    if !is_live && !arguments.no_wait && !sinks.is_ready() {
         say("waiting for somebody to connect");
         sinks.wait_until_ready(&stop);
     }
     let teller = Teller::default();
     let mut boxes = sinks.into_boxes();
     boxes.push(Box::new(teller.clone()));
-    let session = Session::start([source], boxes, stop.clone());
+    let session = Session::start(sources, boxes, stop.clone());
     while !stop.wait(Duration::from_millis(200)) && session.is_running() {
         let progress = progress.read();
         peers.tell(&progress);
@@ -86,15 +89,17 @@ fn playback_options(arguments: &Playback, targets: &[Endpoint]) -> PlaybackOptio
     }
 }
 
-fn announce(source: &Source, types: Option<MessageTypes>, progress: &Progress) {
-    let who = source.preview().map_or_else(String::new, render::who);
+fn announce(sources: &[Source], types: Option<MessageTypes>, progress: &Progress) {
     let types = types.map_or_else(String::new, |types| format!(", types {types}"));
-    let who = source.captured().map_or(who, |captured| format!(", {}", captured.name));
-    say(format_args!("streaming {}{who}{types}", source.endpoint()));
+    for source in sources {
+        let who = source.preview().map_or_else(String::new, render::who);
+        let who = source.captured().map_or(who, |captured| format!(", {}", captured.name));
+        say(format_args!("streaming {}{who}{types}", source.endpoint()));
+    }
     for target in &progress.targets {
         say(format_args!("  to {}", target.endpoint));
     }
-    if let Some(preview) = source.preview() {
+    for preview in sources.iter().filter_map(Source::preview) {
         announce_guesses(preview);
     }
 }

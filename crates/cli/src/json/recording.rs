@@ -25,6 +25,7 @@ pub(crate) struct RecordingRecord<'a> {
     dropped: u64,
     unwritten: u64,
     lost: u64,
+    descriptions_left_out: u64,
     failure: Option<String>,
     ended: bool,
 }
@@ -66,6 +67,7 @@ impl<'a> RecordingRecord<'a> {
             dropped: progress.dropped,
             unwritten: progress.unwritten,
             lost: progress.lost(),
+            descriptions_left_out: progress.descriptions_left_out,
             failure: progress.failure.as_ref().map(ToString::to_string),
             ended: rate_hz.is_none(),
         }

@@ -63,6 +63,13 @@ pub(crate) fn recorded(progress: &RecordProgress, elapsed: Duration) -> String {
     if progress.lost() > 0 {
         _ = write!(text, "\n{}", losses(progress));
     }
+    if progress.descriptions_left_out > 0 {
+        let count = plural(progress.descriptions_left_out, "description");
+        _ = write!(
+            text,
+            "\n{count} of subjects left out, as these change without end: the datagrams with them are there"
+        );
+    }
     let files = match progress.files {
         1 => String::new(),
         files => format!(", the last of {files} files"),

@@ -7,6 +7,8 @@ use std::io::{BufRead, BufReader, Read};
 use std::net::UdpSocket;
 use std::path::Path;
 use std::process::{Child, ChildStderr, Command, Stdio};
+use std::sync::mpsc;
+use std::thread;
 use std::time::{Duration, Instant};
 
 /// `posewire record`, recording.
@@ -44,13 +46,6 @@ impl Recorder {
         }
     }
 
-    #[cfg(unix)]
-    fn interrupt(&self) {
-        let process = self.child.id().to_string();
-        let sent = Command::new("kill").args(["-INT", &process]).status();
-        assert!(sent.unwrap().success());
-    }
-
     fn end(mut self) -> Ended {
         let (mut err, mut out) = (String::new(), String::new());
         self.child.stdout.take().unwrap().read_to_string(&mut out).unwrap();
@@ -63,6 +58,13 @@ impl Recorder {
     }
 }
 
+#[cfg(unix)]
+fn interrupt(child: &Child) {
+    let process = child.id().to_string();
+    let sent = Command::new("kill").args(["-INT", &process]).status();
+    assert!(sent.unwrap().success());
+}
+
 /// Sends numbers until something is true; gives when each was sent.
 fn send_until(port: u16, length: usize, mut enough: impl FnMut(usize) -> bool) -> Vec<Instant> {
     let sender = UdpSocket::bind("127.0.0.1:0").unwrap();
@@ -71,7 +73,7 @@ fn send_until(port: u16, length: usize, mut enough: impl FnMut(usize) -> bool) -
     while !enough(sent.len()) {
         // A pace that a real stream has: to absolute deadlines.
         let due = begun + sent.len() as u32 * Duration::from_micros(500);
-        std::thread::sleep(due.saturating_duration_since(Instant::now()));
+        thread::sleep(due.saturating_duration_since(Instant::now()));
         let mut bytes = (sent.len() as u64).to_le_bytes().to_vec();
         bytes.resize(length, 0);
         sent.push(Instant::now());
@@ -88,7 +90,7 @@ fn ctrl_c_finishes_a_recording_and_json_tells_of_it() {
     let recorder = Recorder::start(folder.path(), &["-o", "take.mcap", "--json"]);
     let begun = Instant::now();
     send_until(recorder.port, 100, |_| begun.elapsed() > Duration::from_millis(1300));
-    recorder.interrupt();
+    interrupt(&recorder.child);
     let ended = recorder.end();
     assert_eq!(ended.code, Some(0), "{}", ended.err);
     let told = objects(&ended.out, "recording");
@@ -161,6 +163,47 @@ fn a_full_disk_ends_the_recording_loudly_and_what_was_written_stays() {
     assert_eq!(seen.code, Some(0), "{}", seen.err);
     let object = objects(&seen.out, "mcap").remove(0);
     assert!(object["sources"][0]["senders"][0]["datagrams"].as_u64().unwrap() > 50);
+}
+
+/// A pipe that nobody reads stands for a disk that is stuck.
+#[cfg(unix)]
+#[test]
+fn a_slow_disk_makes_the_recorder_drop_loudly_and_what_was_written_is_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let (pipe, path) = (folder.path().join("pipe"), folder.path().join("take.mcap"));
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let (go_on, waiting) = mpsc::channel::<()>();
+    let disk = thread::spawn({
+        let path = path.clone();
+        move || {
+            let mut from = fs::File::open(pipe).unwrap();
+            // Until the other end has gone.
+            let _ = waiting.recv();
+            std::io::copy(&mut from, &mut fs::File::create(path).unwrap()).unwrap()
+        }
+    });
+    let recorder = Recorder::start(folder.path(), &["-o", "pipe", "--overwrite"]);
+    let (said, heard) = mpsc::channel();
+    let (port, lines) = (recorder.port, recorder.err.lines());
+    let telling = thread::spawn(move || lines.map_while(Result::ok).for_each(|line| _ = said.send(line)));
+    let begun = Instant::now();
+    send_until(port, 60_000, |_| {
+        assert!(begun.elapsed() < Duration::from_mins(1), "it has not shouted");
+        heard.try_iter().any(|line| line.contains("found no room in the queue"))
+    });
+    let mut child = recorder.child;
+    interrupt(&child);
+    drop(go_on);
+    assert_eq!(child.wait().unwrap().code(), Some(3));
+    telling.join().unwrap();
+    assert!(
+        heard.iter().any(|line| line.starts_with("LOST")),
+        "not said in the summary"
+    );
+    disk.join().unwrap();
+    let survey = Survey::of(&path).unwrap();
+    assert!(survey.complete);
+    assert!(survey.datagrams() > 1000 && survey.lost.unwrap() > 0, "{survey:?}");
 }
 
 #[test]

@@ -6,6 +6,8 @@ use posewire::{Datagram, Wire};
 use posewire_motion::Stamp;
 use posewire_mxtp::body::{Body, TimeCode};
 use posewire_mxtp::{Header, MessageType};
+use serde_json::Value;
+use std::collections::BTreeSet;
 use std::net::UdpSocket;
 use std::path::Path;
 use std::time::Duration;
@@ -97,10 +99,27 @@ fn a_capture_is_monitored_as_if_it_came_now() {
 }
 
 #[test]
-fn one_of_several_sources_is_to_be_chosen() {
+fn all_sources_are_monitored_and_one_when_it_is_named() {
     let folder = tempfile::tempdir().unwrap();
     write_capture(&folder.path().join("take.pcapng"), 4, 2);
+    let received = |only: &[&str]| -> Vec<(Value, Value)> {
+        let arguments = [&["monitor", "take.pcapng", "--json"], only].concat();
+        let ended = posewire(folder.path(), &arguments, b"");
+        assert_eq!(ended.code, Some(0), "{}", ended.err);
+        let last = objects(&ended.out, "statistics").into_iter();
+        let mut last: Vec<_> = last.filter(|object| object["ended"] == true).collect();
+        last.sort_by_key(|object| object["source"].as_u64());
+        let pair = |object: &Value| (object["source"].clone(), object["received"].clone());
+        last.iter().map(pair).collect()
+    };
+    assert_eq!(received(&[]), [0, 1].map(|source| (source.into(), 2.into())));
+    assert_eq!(received(&["--only", "1"]), [(Value::Null, 2.into())]);
+
     let ended = posewire(folder.path(), &["monitor", "take.pcapng", "--plain"], b"");
+    for heading in ["source 0 mxtp://10.0.0.2:9763\n", "source 1 mxtp://10.0.0.3:9763\n"] {
+        assert!(ended.out.contains(heading), "{}", ended.out);
+    }
+    let ended = posewire(folder.path(), &["monitor", "take.pcapng", "--only", "10.0.0"], b"");
     assert_eq!(ended.code, Some(2));
     let found = "found 0 mxtp://10.0.0.2:9763, 1 mxtp://10.0.0.3:9763";
     assert!(
@@ -108,9 +127,70 @@ fn one_of_several_sources_is_to_be_chosen() {
         "{}",
         ended.err
     );
-    let arguments = ["monitor", "take.pcapng", "--json", "--only", "1"];
+}
+
+#[test]
+fn all_sources_are_streamed_to_mxtp_and_natnet_takes_one() {
+    let folder = tempfile::tempdir().unwrap();
+    write_capture(&folder.path().join("take.pcapng"), 40, 2);
+    let to = ["--to", "natnet://127.0.0.1:0?data-port=0", "--no-wait"];
+    let ended = posewire(folder.path(), &[&["stream", "take.pcapng"], &to[..]].concat(), b"");
+    assert_eq!(ended.code, Some(2), "{}", ended.err);
+    assert!(
+        ended.err.contains("a natnet:// target takes one source"),
+        "{}",
+        ended.err
+    );
+
+    let receiver = UdpSocket::bind("127.0.0.1:0").unwrap();
+    receiver.set_read_timeout(Some(Duration::from_mins(1))).unwrap();
+    let to = format!("mxtp://{}", receiver.local_addr().unwrap());
+    let arguments = [
+        "stream",
+        "take.pcapng",
+        "--to",
+        &to,
+        "--types",
+        "25",
+        "--speed",
+        "4",
+        "--json",
+    ];
     let ended = posewire(folder.path(), &arguments, b"");
-    assert_eq!(objects(&ended.out, "statistics").pop().unwrap()["received"], 2);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    let sent = &objects(&ended.out, "stream")[0]["targets"][0]["datagrams"];
+    let mut characters = BTreeSet::new();
+    for _ in 0..sent.as_u64().unwrap() {
+        let mut buffer = [0; 1000];
+        receiver.recv(&mut buffer).unwrap();
+        characters.insert(buffer[16]);
+    }
+    assert_eq!(characters, BTreeSet::from([0, 1]));
+}
+
+#[test]
+fn one_source_of_a_capture_is_converted_when_it_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    write_capture(&folder.path().join("take.pcapng"), 20, 2);
+    let convert = |to: &str, only: &str| posewire(folder.path(), &["convert", "take.pcapng", to, "--only", only], b"");
+    let ended = convert("one.mcap", "10.0.0.3");
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    let capture = Capture::open(&folder.path().join("one.mcap"), &CaptureOptions::default()).unwrap();
+    let of_one = capture.filter(|captured| captured.as_ref().unwrap().datagram.to.ip().to_string() == "10.0.0.3");
+    assert_eq!(of_one.count(), 10);
+    for (to, only, words) in [
+        ("two.mcap", "0,1", "--only names several sources"),
+        ("two.mcap", "position", "datagrams are converted whole"),
+        (
+            "two.bvh",
+            "10.0.0.9",
+            "found 0 mxtp://10.0.0.2:9763, 1 mxtp://10.0.0.3:9763",
+        ),
+    ] {
+        let ended = convert(to, only);
+        assert_eq!(ended.code, Some(2), "{}", ended.err);
+        assert!(ended.err.contains(words), "{}", ended.err);
+    }
 }
 
 #[test]

@@ -41,6 +41,21 @@ fn a_character_that_gives_way_leaves_its_open_frames() {
 }
 
 #[test]
+fn a_character_gives_way_after_more_than_ten_seconds_of_silence() {
+    let mut receiver = Receiver::new();
+    for number in 0..64 {
+        receiver.feed(Sender::with("02", character(number)).sample(0).iter());
+    }
+    let mut one_more = Sender::with("02", character(64));
+    receiver.now = receiver.now.after(Duration::from_secs(10));
+    receiver.feed(one_more.sample(0).iter());
+    assert_eq!(receiver.assembler.refused(), 1);
+    receiver.now = receiver.now.after(Duration::from_nanos(1));
+    receiver.feed(one_more.sample(1).iter());
+    assert_eq!((receiver.assembler.refused(), receiver.frames().len()), (1, 1));
+}
+
+#[test]
 fn no_more_than_four_samples_are_open() {
     let (mut receiver, mut sender) = (Receiver::new(), Sender::with("02", |options| options.split = Some(400)));
     for number in 0..50 {

@@ -20,19 +20,29 @@ pub struct Converted {
     pub damage: Option<String>,
 }
 
+/// What of a capture is converted, and how.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ConvertOptions {
+    /// Only this source, by its number or a part of its name.
+    pub only: Option<String>,
+    /// Whether a file that is there is replaced.
+    pub overwrite: bool,
+}
+
 /// Writes every datagram of a capture, with its time, to a file of the kind that its name says: `.mcap`, `.pcap`, or else pcapng.
 ///
-/// A recording gets the raw datagrams alone; poses come into one when a capture is played to a
+/// A recording that was split becomes one file. A recording gets the raw datagrams alone; poses come into one when a capture is played to a
 /// [`RecordSink`](crate::sink::RecordSink). Which source a datagram is of is kept between recordings; otherwise it follows from its
 /// addresses. The file has a hidden name until it is whole.
 ///
 /// # Errors
-/// Those of [`Survey::of`] and of the writer; [`Error::Exists`] when the file is there and is not to be overwritten, and
-/// [`Error::Stopped`] after `stop`. None of them leaves a file.
-pub fn convert(from: &Path, to: &Path, overwrite: bool, stop: &Stop) -> Result<Converted> {
-    if !overwrite && to.exists() {
+/// Those of [`Survey::of`], of [`Survey::choose`] and of the writer; [`Error::Exists`] when the file is there and is not to be
+/// overwritten, and [`Error::Stopped`] after `stop`. None of them leaves a file.
+pub fn convert(from: &Path, to: &Path, options: &ConvertOptions, stop: &Stop) -> Result<Converted> {
+    if !options.overwrite && to.exists() {
         return Err(Error::Exists { path: to.to_owned() });
     }
+    let chosen = chosen(from, options.only.as_deref())?;
     let mut capture = Capture::open(from, &CaptureOptions::default())?;
     let hidden = name_beside(to)?;
     let mut output = Output::create(from, &hidden)?;
@@ -42,16 +52,26 @@ pub fn convert(from: &Path, to: &Path, overwrite: bool, stop: &Stop) -> Result<C
             let what = "a capture was converted".to_owned();
             return Err(Error::Stopped { what });
         }
-        output.write(captured?)?;
-        datagrams += 1;
+        let captured = captured?;
+        if chosen.is_none_or(|chosen| chosen == captured.source) {
+            output.write(captured)?;
+            datagrams += 1;
+        }
     }
     output.finish()?;
-    give_name(hidden, to, overwrite)?;
+    give_name(hidden, to, options.overwrite)?;
     Ok(Converted {
         datagrams,
         counts: capture.counts(),
         damage: capture.damage().map(str::to_owned),
     })
+}
+
+/// The number of the source that is named, if one is.
+fn chosen(path: &Path, only: Option<&str>) -> Result<Option<u16>> {
+    let Some(only) = only else { return Ok(None) };
+    let survey = Survey::of(path, &CaptureOptions::default())?;
+    survey.choose(path, Some(only)).map(|source| Some(source.number))
 }
 
 /// A name in the same folder with the same ending, of a file that goes when it gets no other name.

@@ -32,6 +32,7 @@ mod link;
 mod opening;
 mod origin;
 mod packet;
+mod parts;
 mod pcap;
 mod pcapng;
 mod playlist;
@@ -42,10 +43,10 @@ mod survey;
 mod unpack;
 mod write;
 
-pub use convert::{Converted, convert};
+pub use convert::{ConvertOptions, Converted, convert};
 pub(crate) use opening::Opening;
 pub(crate) use origin::is_asked;
-pub(crate) use playlist::{Playlist, Selection};
+pub(crate) use playlist::{Due, Playlist, Selection};
 pub use protocol::Protocol;
 pub use survey::{CapturedSource, Survey};
 pub use write::PcapWriter;
@@ -107,13 +108,16 @@ impl Counts {
 
 /// The datagrams of a capture file, in the order in which they were captured.
 ///
-/// A recording (MCAP) gives its raw datagrams, whichever sources and senders they are of, also when it was cut off.
+/// A recording (MCAP) gives its raw datagrams, whichever sources and senders they are of, also when it was cut off. Where it was
+/// split, its first file stands for all of them, which lie beside it; a later one stands for itself.
 ///
 /// A pcap or pcapng file is read packet by packet: Ethernet with VLAN tags, Linux cooked capture, loopback and bare IP; IP fragments
 /// are put together, UDP datagrams taken that are MXTP or NatNet, and TCP streams cut into MXTP datagrams. Memory is bounded
 /// whatever the file says.
 pub struct Capture {
-    path: PathBuf,
+    files: Vec<PathBuf>,
+    /// Which of the files is being read.
+    place: usize,
     kind: Kind,
     damage: Option<String>,
     ended: bool,
@@ -128,12 +132,15 @@ impl Capture {
     /// Opens a capture; what it is, its first bytes say.
     ///
     /// # Errors
-    /// [`Error::Read`] when it cannot be read, [`Error::NotACapture`] when it is something else.
+    /// [`Error::Read`] when it cannot be read, [`Error::NotACapture`] when it is something else, [`Error::MissingPart`] when a file of
+    /// a split recording is not there.
     pub fn open(path: &Path, options: &CaptureOptions) -> Result<Self> {
         let failed = |error: io::Error| Error::read(path, &error);
         let mut file = BufReader::with_capacity(BUFFER, File::open(path).map_err(failed)?);
         let found: Vec<_> = file.fill_buf().map_err(failed)?.iter().take(8).copied().collect();
+        let mut files = vec![path.to_owned()];
         let kind = if Recording::begins(&found) {
+            files = parts::all_from(path)?;
             Kind::Recording(Box::new(Recording::open(file)))
         } else if let Some(packets) = Packets::open(Input::new(file)).map_err(failed)? {
             Kind::Packets(Box::new(Unpacked::new(packets, options.protocol)))
@@ -142,11 +149,17 @@ impl Capture {
             return Err(Error::NotACapture { path, found });
         };
         Ok(Self {
-            path: path.to_owned(),
+            files,
+            place: 0,
             kind,
             damage: None,
             ended: false,
         })
+    }
+
+    /// The files that are read, in their order: several of a recording that was split.
+    pub fn files(&self) -> &[PathBuf] {
+        &self.files
     }
 
     /// The sources that datagrams have come from so far, as endpoints; [`Captured::source`] is a place in here. A recording says
@@ -176,19 +189,51 @@ impl Capture {
 
     /// The next datagram; `None` at the end, or where nothing more can be read.
     fn advance(&mut self) -> io::Result<Option<Captured>> {
-        let damage = match &mut self.kind {
-            Kind::Packets(packets) => match packets.next()? {
-                Ok(captured) => return Ok(captured),
-                Err(damage) => damage,
-            },
-            Kind::Recording(recording) => match recording.next()? {
-                recording::Next::Datagram(captured) => return Ok(Some(captured)),
-                recording::Next::End => return Ok(None),
-                recording::Next::Damaged(damage) => damage,
-            },
+        loop {
+            let damage = match &mut self.kind {
+                Kind::Packets(packets) => match packets.next()? {
+                    Ok(captured) => return Ok(captured),
+                    Err(damage) => Some(damage),
+                },
+                Kind::Recording(recording) => match recording.next()? {
+                    // The file before has what a later one repeats of it.
+                    recording::Next::Datagram(captured) if captured.is_repeated && self.place > 0 => continue,
+                    recording::Next::Datagram(captured) => return Ok(Some(captured)),
+                    recording::Next::End => None,
+                    recording::Next::Damaged(damage) => Some(damage),
+                },
+            };
+            if let Some(damage) = damage {
+                self.note_damage(damage);
+            }
+            if !self.begin_next_file()? {
+                return Ok(None);
+            }
+        }
+    }
+
+    /// Says in which of several files the damage is; the first one counts.
+    fn note_damage(&mut self, damage: String) {
+        let damage = match self.file().file_name() {
+            Some(name) if self.files.len() > 1 => format!("{}: {damage}", name.to_string_lossy()),
+            _ => damage,
         };
-        self.damage = Some(damage);
-        Ok(None)
+        self.damage.get_or_insert(damage);
+    }
+
+    /// `false` when there is none.
+    fn begin_next_file(&mut self) -> io::Result<bool> {
+        let (Kind::Recording(recording), Some(next)) = (&mut self.kind, self.files.get(self.place + 1)) else {
+            return Ok(false);
+        };
+        self.place += 1;
+        recording.go_on(BufReader::with_capacity(BUFFER, File::open(next)?));
+        Ok(true)
+    }
+
+    /// The file that is being read.
+    fn file(&self) -> &Path {
+        self.files.get(self.place).map_or(Path::new(""), PathBuf::as_path)
     }
 }
 
@@ -201,7 +246,7 @@ impl Iterator for Capture {
         }
         let next = self
             .advance()
-            .map_err(|error| Error::read(&self.path, &error))
+            .map_err(|error| Error::read(self.file(), &error))
             .transpose();
         self.ended = !matches!(next, Some(Ok(_)));
         next
@@ -211,7 +256,7 @@ impl Iterator for Capture {
 impl std::fmt::Debug for Capture {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Capture")
-            .field("path", &self.path)
+            .field("files", &self.files)
             .finish_non_exhaustive()
     }
 }

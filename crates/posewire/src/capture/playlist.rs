@@ -75,6 +75,11 @@ impl Playlist {
         self.damage.as_deref().or(self.capture.damage())
     }
 
+    /// Whether nothing was played so far but copies from a file before.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.first.is_none()
+    }
+
     /// The next datagram; `None` at the end, or in a loop when a round had none.
     pub(crate) fn next(&mut self) -> Result<Option<Due>> {
         loop {

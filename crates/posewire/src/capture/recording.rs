@@ -1,6 +1,8 @@
 //! The raw datagrams of a recording (MCAP), also of one that was cut off.
 
 use super::Captured;
+use super::parts::Place;
+use crate::recording::{RECORDING, SOURCE_RECORD};
 use crate::{Datagram, Wire};
 use mcap::McapError;
 use mcap::records::{Channel, MessageHeader, Metadata, Record, op};
@@ -15,6 +17,7 @@ pub(super) struct Recording {
     reader: LinearReader,
     channels: BTreeMap<u16, Raw>,
     names: Vec<String>,
+    place: Option<Place>,
     counts: Counts,
 }
 
@@ -57,6 +60,7 @@ impl Recording {
             reader: LinearReader::new_with_options(options),
             channels: BTreeMap::new(),
             names: Vec::new(),
+            place: None,
             counts: Counts::default(),
         }
     }
@@ -68,6 +72,19 @@ impl Recording {
 
     pub(super) fn counts(&self) -> Counts {
         self.counts
+    }
+
+    /// Which file of which recording it is, once that was read.
+    pub(super) fn place(&self) -> Option<&Place> {
+        self.place.as_ref()
+    }
+
+    /// Goes on with the next file of the same recording.
+    pub(super) fn go_on(&mut self, from: impl Read + Send + 'static) {
+        let Self {
+            names, place, counts, ..
+        } = std::mem::replace(self, Self::open(from));
+        (self.names, self.place, self.counts) = (names, place, counts);
     }
 
     /// The next datagram.
@@ -133,11 +150,19 @@ impl Recording {
     }
 
     fn metadata(&mut self, metadata: &Metadata) {
-        if metadata.name == "posewire.source" {
-            let value = |key: &str| metadata.metadata.get(key);
-            if let Some(source) = value("source").and_then(|number| number.parse().ok()) {
-                self.name(source, value("endpoint").cloned());
-            }
+        let value = |key: &str| metadata.metadata.get(key);
+        if metadata.name == RECORDING {
+            let text = |key: &str| value(key).cloned().unwrap_or_default();
+            let part = value("part").and_then(|part| part.parse().ok());
+            self.place = part.map(|part| Place {
+                recording: (text("started"), text("host")),
+                part,
+            });
+        }
+        if metadata.name == SOURCE_RECORD
+            && let Some(source) = value("source").and_then(|number| number.parse().ok())
+        {
+            self.name(source, value("endpoint").cloned());
         }
     }
 

@@ -3,11 +3,13 @@
 use super::{Capture, CaptureOptions, Captured, Counts, Protocol};
 use crate::{Error, Result, Wire};
 use posewire_motion::Stamp;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// What a capture holds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Survey {
+    /// The files that were read: several of a recording that was split.
+    pub files: Vec<PathBuf>,
     /// Its sources, by number. Some may be without a datagram.
     pub sources: Vec<CapturedSource>,
     /// What was read, and what could not be.
@@ -55,10 +57,27 @@ impl Survey {
             source.name.clone_from(name);
         }
         Ok(Self {
+            files: capture.files().to_vec(),
             sources,
             counts,
             damage: capture.damage().map(str::to_owned),
         })
+    }
+
+    /// The sources that have datagrams.
+    pub fn heard(&self) -> impl Iterator<Item = &CapturedSource> {
+        self.sources.iter().filter(|source| source.datagrams > 0)
+    }
+
+    /// The sources that are meant: the one that is named, as [`choose`](Self::choose) has it, else all that have datagrams.
+    ///
+    /// # Errors
+    /// [`Error::CapturedSources`] when a name means none or several of them.
+    pub fn chosen(&self, path: &Path, wanted: Option<&str>) -> Result<Vec<&CapturedSource>> {
+        match wanted {
+            Some(_) => self.choose(path, wanted).map(|source| vec![source]),
+            None => Ok(self.heard().collect()),
+        }
     }
 
     /// The source that is meant: by its number, or by a part of its name that no other has. The only one if none is named.
@@ -66,14 +85,13 @@ impl Survey {
     /// # Errors
     /// [`Error::CapturedSources`] when none or several are meant.
     pub fn choose(&self, path: &Path, wanted: Option<&str>) -> Result<&CapturedSource> {
-        let there = self.sources.iter().filter(|source| source.datagrams > 0);
         let number: Option<u16> = wanted.and_then(|wanted| wanted.parse().ok());
         let is_meant = |source: &&CapturedSource| match (number, wanted) {
             (Some(number), _) => source.number == number,
             (None, Some(wanted)) => source.name.contains(wanted),
             (None, None) => true,
         };
-        let mut meant = there.filter(is_meant);
+        let mut meant = self.heard().filter(is_meant);
         match (meant.next(), meant.next()) {
             (Some(source), None) => Ok(source),
             _ => Err(self.not_one(path, wanted)),
@@ -84,9 +102,9 @@ impl Survey {
     pub(crate) fn natnet(&self, path: &Path, chosen: Option<u16>) -> Result<&CapturedSource> {
         let is_meant = |source: &&CapturedSource| {
             let is_chosen = chosen.is_none_or(|chosen| chosen == source.number);
-            is_chosen && source.datagrams > 0 && source.protocol == Some(Protocol::NatNet)
+            is_chosen && source.protocol == Some(Protocol::NatNet)
         };
-        let mut meant = self.sources.iter().filter(is_meant);
+        let mut meant = self.heard().filter(is_meant);
         match (meant.next(), meant.next()) {
             (Some(source), None) => Ok(source),
             _ => Err(self.not_one(path, Some("natnet"))),
@@ -94,11 +112,11 @@ impl Survey {
     }
 
     fn not_one(&self, path: &Path, wanted: Option<&str>) -> Error {
-        let there = self.sources.iter().filter(|source| source.datagrams > 0);
         Error::CapturedSources {
             path: path.to_owned(),
             wanted: wanted.map(str::to_owned),
-            found: there
+            found: self
+                .heard()
                 .map(|source| format!("{} {}", source.number, source.name))
                 .collect(),
         }

@@ -32,6 +32,9 @@ impl Error {
                 Some("posewire explain FILE --protocol mxtp takes every datagram for MXTP".into())
             }
             Self::CapturedSources { .. } => Some("choose one by number or name, as in --only 0".into()),
+            Self::MissingPart { .. } => Some(
+                "put it beside the others; a later part, or the first in a folder of its own, is read alone".into(),
+            ),
             Self::CaptureRate { .. } => Some("leave --rate out; --speed plays it faster or slower".into()),
             Self::TooLongForIp { .. } => None,
             Self::NoFrames { .. } => Some("posewire inspect says what it holds; export it again from MVN".into()),

@@ -2,7 +2,7 @@
 
 use crate::SourceId;
 use posewire_motion::Subject;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A subject's number within its source.
 pub(super) type SubjectId = (SourceId, u32);
@@ -10,26 +10,39 @@ pub(super) type SubjectId = (SourceId, u32);
 /// Gives each subject a name of its own, the same for the whole recording.
 #[derive(Debug, Default)]
 pub(super) struct Names {
-    owners: BTreeMap<String, SubjectId>,
+    /// The names that were given, by subject and what it calls itself.
+    given: BTreeMap<(SubjectId, String), String>,
+    taken: BTreeSet<String>,
+    /// The number to try next for one more of a name: a broken sender has thousands of them.
+    next: BTreeMap<String, u32>,
 }
 
 impl Names {
     /// The name of a subject; `None` when there are too many names to give another, as only a broken sender needs.
     pub(super) fn name(&mut self, id: SubjectId, subject: &Subject) -> Option<String> {
         let plain = plain(subject);
-        let mut name = plain.clone();
-        for number in 2.. {
-            match self.owners.get(&name) {
-                Some(owner) if *owner == id => return Some(name),
-                Some(_) => name = format!("{plain}-{number}"),
-                None => break,
+        let key = (id, plain.clone());
+        if self.given.len() >= MOST || self.given.contains_key(&key) {
+            return self.given.get(&key).cloned();
+        }
+        let name = self.free(plain);
+        self.taken.insert(name.clone());
+        self.given.insert(key, name.clone());
+        Some(name)
+    }
+
+    fn free(&mut self, plain: String) -> String {
+        if !self.taken.contains(&plain) {
+            return plain;
+        }
+        let next = self.next.entry(plain.clone()).or_insert(2);
+        loop {
+            let name = format!("{plain}-{next}");
+            *next += 1;
+            if !self.taken.contains(&name) {
+                return name;
             }
         }
-        if self.owners.len() >= MOST {
-            return None;
-        }
-        self.owners.insert(name.clone(), id);
-        Some(name)
     }
 }
 

@@ -134,7 +134,11 @@ impl Part {
         let finished = self.writer.finish();
         finished.map_err(|error| cannot_write(&self.path, error))?;
         let flushed = self.writer.into_inner().into_inner().flush();
-        let synced = flushed.and_then(|()| self.file.sync_all());
+        let synced = flushed.and_then(|()| match self.file.sync_all() {
+            // A pipe, which is not on this disk.
+            Err(error) if error.kind() == io::ErrorKind::InvalidInput => Ok(()),
+            synced => synced,
+        });
         synced.map_err(|error| Error::write(self.path.display().to_string(), &error))?;
         Ok(self.written.load(Ordering::Relaxed))
     }

@@ -65,6 +65,7 @@ pub struct Writer {
     message: Vec<u8>,
     counts: PartCounts,
     finished_bytes: u64,
+    descriptions_left_out: u64,
 }
 
 type Sender = (SourceId, Wire, SocketAddr, SocketAddr);
@@ -74,6 +75,8 @@ struct Known {
     subject: Arc<Subject>,
     /// What it is called, and its segments' frame ids; absent when there are too many names.
     named: Option<Named>,
+    /// How often it was described in the present file.
+    told: u32,
 }
 
 struct Named {
@@ -88,9 +91,14 @@ struct PartCounts {
     datagrams: u64,
     frames: u64,
     bytes: u64,
+    /// Bytes of subjects' descriptions.
+    descriptions: usize,
 }
 
 impl Writer {
+    /// Subjects that are known; more, as only a broken sender has, are counted and have no poses in the file.
+    pub const MOST_SUBJECTS: usize = 16_384;
+
     /// Creates the first file. `endpoints` are those of the sources, in the order of their [`SourceId`]s.
     ///
     /// # Errors
@@ -113,6 +121,7 @@ impl Writer {
             message: Vec::new(),
             counts: PartCounts::default(),
             finished_bytes: 0,
+            descriptions_left_out: 0,
         };
         writer.introduce()?;
         Ok(writer)
@@ -131,6 +140,12 @@ impl Writer {
     /// The bytes of all files, with what is not in the last one yet.
     pub fn length(&self) -> u64 {
         self.finished_bytes + self.part.as_ref().map_or(0, Part::length)
+    }
+
+    /// Descriptions of subjects that were not written, because there were more than any that is not broken sends. The datagrams
+    /// that they were read from are in the file all the same.
+    pub fn descriptions_left_out(&self) -> u64 {
+        self.descriptions_left_out
     }
 
     /// The present file as it is open, to see it onto the disk from another thread.
@@ -160,7 +175,8 @@ impl Writer {
         })
     }
 
-    /// Writes who a subject is, if that is news.
+    /// Writes who a subject is, if that is news, and counts instead what is too much for one file: descriptions of a subject
+    /// beyond the 256th, of subjects beyond [`MOST_SUBJECTS`](Self::MOST_SUBJECTS), and those beyond 64 MiB in all.
     ///
     /// # Errors
     /// As for [`datagram`](Self::datagram).
@@ -170,10 +186,15 @@ impl Writer {
         if known.is_some_and(|known| Arc::ptr_eq(known, subject) || known == subject) {
             return Ok(());
         }
+        if self.subjects.len() >= Self::MOST_SUBJECTS && !self.subjects.contains_key(&id) {
+            self.descriptions_left_out += 1;
+            return Ok(());
+        }
         let name = self.names.name(id, subject);
         let named = name.map(|name| Named::new(name, subject));
+        let told = self.subjects.get(&id).map_or(0, |known| known.told);
         let subject = Arc::clone(subject);
-        self.subjects.insert(id, Known { subject, named });
+        self.subjects.insert(id, Known { subject, named, told });
         self.tell(id)
     }
 
@@ -234,13 +255,14 @@ impl Writer {
 
     /// As [`finish`](Self::finish), and notes how many items were `lost` before they came here.
     pub(crate) fn close(&mut self, lost: u64) -> Result<()> {
-        let counts = self.counts;
+        let (counts, left_out) = (self.counts, self.descriptions_left_out);
         self.write(|part| {
             let end = [
                 ("datagrams", counts.datagrams.to_string()),
                 ("frames", counts.frames.to_string()),
                 ("bytes", counts.bytes.to_string()),
                 ("lost", lost.to_string()),
+                ("descriptions_left_out", left_out.to_string()),
             ];
             part.metadata(format::END, keys(end))
         })?;
@@ -265,6 +287,7 @@ impl Writer {
         self.senders.clear();
         self.sender_counts.clear();
         for known in self.subjects.values_mut() {
+            known.told = 0;
             if let Some(named) = &mut known.named {
                 named.channel = None;
             }
@@ -316,10 +339,17 @@ impl Writer {
 
     /// Writes the description of a subject.
     fn tell(&mut self, id: SubjectId) -> Result<()> {
-        let Some(Known { subject, named }) = self.subjects.get(&id) else {
+        let Some(Known { subject, named, told }) = self.subjects.get_mut(&id) else {
             return Ok(());
         };
-        let description = [
+        if *told >= MOST_TOLD || self.counts.descriptions >= MOST_DESCRIBED {
+            self.descriptions_left_out += 1;
+            return Ok(());
+        }
+        *told += 1;
+        let description = describe(subject);
+        self.counts.descriptions += description.len();
+        let record = [
             (format::SOURCE, id.0.0.to_string()),
             (format::SUBJECT, id.1.to_string()),
             (format::NAME, subject.name.clone()),
@@ -327,9 +357,9 @@ impl Writer {
                 "frame",
                 named.as_ref().map_or_else(String::new, |named| named.name.clone()),
             ),
-            ("description", describe(subject)),
+            ("description", description),
         ];
-        self.write(|part| part.metadata(format::SUBJECT_RECORD, keys(description)))
+        self.write(|part| part.metadata(format::SUBJECT_RECORD, keys(record)))
     }
 
     /// Repeats what earlier files say of those who are in this one.
@@ -441,6 +471,10 @@ fn host() -> String {
     std::env::var("COMPUTERNAME").unwrap_or_default()
 }
 
+/// Descriptions of one subject in one file: a performer is measured anew a few times a day.
+const MOST_TOLD: u32 = 256;
+/// Bytes of all descriptions in one file, beyond which there are no more.
+const MOST_DESCRIBED: usize = 64 << 20;
 /// Senders of a source that have channels of their own.
 const MOST_SENDERS: usize = 1024;
 /// Who the others share their channel under.

@@ -7,7 +7,7 @@ mod record;
 mod take;
 
 pub(crate) use mxtp::Target as MxtpTarget;
-pub use mxtp::{MxtpSink, MxtpSinkOptions};
+pub use mxtp::{Fit, MxtpSink, MxtpSinkOptions};
 pub(crate) use natnet::Ports as NatNetPorts;
 pub use natnet::{NatNetSink, NatNetSinkOptions};
 pub use progress::{ClientProgress, ClientState, LeftOut, Progress, TargetProgress};

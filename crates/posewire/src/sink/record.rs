@@ -70,6 +70,8 @@ pub struct RecordProgress {
     pub dropped: u64,
     /// Datagrams and samples that could not be written.
     pub unwritten: u64,
+    /// Descriptions of subjects that changed more often than [`Writer::subject`] writes; no data is lost by that.
+    pub descriptions_left_out: u64,
     /// Why nothing more is written.
     pub failure: Option<Error>,
 }
@@ -207,6 +209,9 @@ impl RecordSink {
 
     fn count(&mut self, source: SourceId, frame: &Frame) {
         let (subject, subjects) = (&frame.subject, &mut self.progress.subjects);
+        if subjects.len() >= Writer::MOST_SUBJECTS && !self.subjects.contains_key(&(source, subject.id)) {
+            return;
+        }
         let place = *self.subjects.entry((source, subject.id)).or_insert(subjects.len());
         if place == subjects.len() {
             subjects.push(RecordedSubject {
@@ -253,6 +258,7 @@ impl RecordSink {
             writer.path().clone_into(&mut self.progress.file);
             self.progress.files = writer.files();
             self.progress.bytes = writer.length();
+            self.progress.descriptions_left_out = writer.descriptions_left_out();
         }
         let mut shared = lock(&self.shared);
         shared.clone_from(&self.progress);
@@ -295,6 +301,7 @@ impl Sink for RecordSink {
         if let Some(mut writer) = self.writer.take() {
             writer.path().clone_into(&mut self.progress.file);
             self.progress.files = writer.files();
+            self.progress.descriptions_left_out = writer.descriptions_left_out();
             match writer.close(self.progress.dropped) {
                 Ok(()) => self.progress.bytes = writer.length(),
                 Err(error) => {
@@ -378,5 +385,5 @@ impl Drop for Syncing {
 }
 
 const SYNC_EVERY: Duration = Duration::from_secs(1);
-/// Seconds of everything that 16 people give at 240 Hz.
+/// Seconds of everything that 16 people give at 240 Hz, which is less than what any queue may hold in bytes.
 const QUEUED: usize = 65_536;

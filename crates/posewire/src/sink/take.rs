@@ -5,28 +5,29 @@ use crate::{Item, Result, SourceId};
 use posewire_motion::{Frame, Take};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Keeps all frames of a stream of one source, a take for each subject. Clones share them.
+/// Keeps all frames, a take for each subject of each source. Clones share them.
 ///
 /// A subject that changes so that its frames fit no more, by a prop for one, begins another take.
 #[derive(Clone, Debug, Default)]
 pub struct TakeSink {
-    takes: Arc<Mutex<Vec<Take>>>,
+    takes: Arc<Mutex<Vec<(SourceId, Take)>>>,
 }
 
 impl TakeSink {
     /// How many frames there are, of all subjects together.
     pub fn frames(&self) -> usize {
-        self.lock().iter().map(Take::len).sum()
+        self.lock().iter().map(|(_, take)| take.len()).sum()
     }
 
-    /// Gives the takes away, in the order of their first frames.
+    /// Gives the takes away, source by source, in the order of their first frames.
     ///
     /// The rate of each is the one that its subject states, else that of the source's clock. Where a source sends each
     /// fourth of its samples, as MVN does at 60 of 240 Hz, the samples that are there are numbered on and the rate is theirs.
     /// Sensors of which nothing was ever tracked, and foot contacts that never came, are not in the skeleton.
     pub fn take(&self) -> Vec<Take> {
-        let takes = std::mem::take(&mut *self.lock());
-        let finished = takes.into_iter().map(|take| {
+        let mut takes = std::mem::take(&mut *self.lock());
+        takes.sort_by_key(|(source, _)| *source);
+        let finished = takes.into_iter().map(|(_, take)| {
             let mut take = paced(take);
             take.remove_unused();
             take
@@ -34,24 +35,25 @@ impl TakeSink {
         finished.collect()
     }
 
-    fn lock(&self) -> MutexGuard<'_, Vec<Take>> {
+    fn lock(&self) -> MutexGuard<'_, Vec<(SourceId, Take)>> {
         self.takes.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
 impl Sink for TakeSink {
-    fn accept(&mut self, _: SourceId, item: &Item) -> Result<()> {
+    fn accept(&mut self, source: SourceId, item: &Item) -> Result<()> {
         if let Item::Frame { frame, .. } = item {
-            keep(&mut self.lock(), frame);
+            keep(&mut self.lock(), source, frame);
         }
         Ok(())
     }
 }
 
-fn keep(takes: &mut Vec<Take>, frame: &Frame) {
+fn keep(takes: &mut Vec<(SourceId, Take)>, source: SourceId, frame: &Frame) {
     let subject = &frame.subject;
-    let newest = takes.iter_mut().rev().find(|take| take.subject.id == subject.id);
-    if let Some(take) = newest
+    let is_of_subject = |(of, take): &&mut (SourceId, Take)| *of == source && take.subject.id == subject.id;
+    let newest = takes.iter_mut().rev().find(is_of_subject);
+    if let Some((_, take)) = newest
         && take.subject.skeleton.segments.len() == subject.skeleton.segments.len()
         && take.push(frame).is_ok()
     {
@@ -62,7 +64,7 @@ fn keep(takes: &mut Vec<Take>, frame: &Frame) {
     let mut take = Take::new(Arc::clone(subject), subject.rate.unwrap_or(0.0));
     // A frame that does not fit its own subject has no place anywhere.
     if take.push(frame).is_ok() {
-        takes.push(take);
+        takes.push((source, take));
     }
 }
 
@@ -165,6 +167,20 @@ mod tests {
         assert_eq!(skeleton.sensors, subject.skeleton.sensors[..11]);
         assert_eq!(skeleton.contacts.len(), 0);
         assert_eq!(take.frame(2).sensor_free_acceleration, [Some(DVec3::Z); 11]);
+    }
+
+    #[test]
+    fn subjects_of_two_sources_may_have_the_same_number() {
+        let mut sink = TakeSink::default();
+        for (source, name, sample) in [(1, "Bob", 1), (0, "Ada", 1), (1, "Bob", 2)] {
+            let subject = Arc::new(Subject::new(name, Skeleton::standard(0, false)));
+            let frame = Arc::new(frame(&subject, sample));
+            sink.accept(SourceId(source), &Item::Frame { frame, due: None })
+                .unwrap();
+        }
+        let takes = sink.take();
+        let lengths = takes.iter().map(|take| (take.subject.name.as_str(), take.len()));
+        assert_eq!(lengths.collect::<Vec<_>>(), [("Ada", 1), ("Bob", 2)]);
     }
 
     #[test]

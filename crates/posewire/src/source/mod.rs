@@ -66,6 +66,23 @@ impl Source {
         Ok(Self { endpoint, kind })
     }
 
+    /// Opens all that an endpoint names: the sources of a capture, which are played together at their own times, or the one that
+    /// [`PlaybackOptions::only`] names; of any other endpoint what [`open`](Self::open) gives.
+    ///
+    /// # Errors
+    /// Those of [`open`](Self::open), which takes one source of a capture alone.
+    pub fn open_all(endpoint: &Endpoint, options: &PlaybackOptions) -> Result<Vec<Self>> {
+        let Endpoint::Capture { path } = endpoint else {
+            return Self::open(endpoint, options).map(|source| vec![source]);
+        };
+        let captures = CapturePlayback::open_all(path, options)?.into_iter();
+        let sources = captures.map(|capture| Self {
+            endpoint: endpoint.clone(),
+            kind: Kind::Capture(Box::new(capture)),
+        });
+        Ok(sources.collect())
+    }
+
     /// Where it is open: the endpoint asked for, with the port that the system chose if it was 0.
     pub fn endpoint(&self) -> &Endpoint {
         &self.endpoint

@@ -1,18 +1,20 @@
 //! Datagrams that were captured are sources, are replayed, and stay what they are from file to file.
 
 use crate::harness::{Gathered, Gatherer, PATIENCE, Receiver, open, seconds, types};
-use posewire::capture::{Capture, CaptureOptions, PcapWriter, Protocol, Survey, convert};
+use posewire::capture::{Capture, CaptureOptions, ConvertOptions, PcapWriter, Protocol, Survey, convert};
 use posewire::endpoint::Endpoint;
 use posewire::recording::{Writer, WriterOptions};
 use posewire::replay::{Replay, ReplayOptions, Replayed};
 use posewire::sink::{MxtpSink, NatNetSink, NatNetSinkOptions, RecordOptions, RecordSink};
 use posewire::source::PlaybackOptions;
 use posewire::stop::Stop;
-use posewire::{Datagram, Error, Session, Sink, Source, SourceId, Wire};
+use posewire::{Datagram, Error, Item, Session, Sink, Source, SourceId, Wire};
 use posewire_motion::Stamp;
+use posewire_mxtp::MessageType;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::time::Duration;
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
 
 /// A receiver whose datagrams are recorded.
 struct Recorder {
@@ -120,10 +122,12 @@ fn from_mcap_to_pcapng_and_back_keeps_every_datagram_and_its_time() {
     let [first, packets, last] = ["first.mcap", "take.pcapng", "last.mcap"].map(|name| folder.path().join(name));
     let sent = record_walk("mxtp://127.0.0.1:0", &first);
     assert_eq!(
-        convert(&first, &packets, false, &Stop::new()).unwrap().datagrams,
+        convert(&first, &packets, &ConvertOptions::default(), &Stop::new())
+            .unwrap()
+            .datagrams,
         sent.len() as u64
     );
-    convert(&packets, &last, false, &Stop::new()).unwrap();
+    convert(&packets, &last, &ConvertOptions::default(), &Stop::new()).unwrap();
     assert_eq!(datagrams(&packets), sent);
     assert_eq!(datagrams(&last), sent);
 }
@@ -197,6 +201,88 @@ fn a_part_of_one_source_is_played() {
         numbers.push(buffer[9]);
     }
     assert_eq!(numbers, [5, 7, 9, 11]);
+}
+
+/// A recording of one walk at two sources, at the second one so much later.
+fn record_twice(folder: &Path, later: Duration) -> PathBuf {
+    let [once, twice] = ["once.mcap", "twice.mcap"].map(|name| folder.join(name));
+    let endpoint = "mxtp://127.0.0.1:9763".to_owned();
+    let mut writer = Writer::create(&twice, &[endpoint.clone(), endpoint], WriterOptions::default()).unwrap();
+    let mut datagrams = Vec::new();
+    for datagram in record_walk("mxtp://127.0.0.1:0", &once) {
+        let second = Datagram {
+            received: datagram.received.after(later),
+            ..datagram.clone()
+        };
+        datagrams.extend([(SourceId(0), datagram), (SourceId(1), second)]);
+    }
+    datagrams.sort_by_key(|(_, datagram)| datagram.received);
+    for (source, datagram) in datagrams {
+        writer.datagram(source, &Arc::new(datagram)).unwrap();
+    }
+    writer.finish().unwrap();
+    twice
+}
+
+/// When frames were due, by source.
+#[derive(Clone, Default)]
+struct Dues(Arc<Mutex<BTreeMap<SourceId, Vec<Instant>>>>);
+
+impl Sink for Dues {
+    fn accept(&mut self, source: SourceId, item: &Item) -> posewire::Result<()> {
+        if let Item::Frame { due: Some(due), .. } = item {
+            self.0.lock().unwrap().entry(source).or_default().push(*due);
+        }
+        Ok(())
+    }
+}
+
+#[test]
+fn all_sources_are_played_together_with_the_time_between_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let later = Duration::from_millis(90);
+    let path = record_twice(folder.path(), later);
+    let endpoint: Endpoint = path.display().to_string().parse().unwrap();
+    let sources = Source::open_all(&endpoint, &PlaybackOptions::default()).unwrap();
+    let numbers: Vec<_> = sources.iter().map(|source| source.captured().unwrap().number).collect();
+    assert_eq!(numbers, [0, 1]);
+    let dues = Dues::default();
+    let session = Session::start(sources, vec![Box::new(dues.clone())], Stop::new());
+    assert_eq!(session.wait().unwrap().dropped, 0);
+    let dues = dues.0.lock().unwrap();
+    let [first, second] = [0, 1].map(|source| &dues[&SourceId(source)]);
+    assert_eq!(first.len(), 144);
+    assert!(
+        second
+            .iter()
+            .zip(first)
+            .all(|(second, first)| *second - *first == later)
+    );
+
+    let one = PlaybackOptions {
+        only: Some("1".to_owned()),
+        ..PlaybackOptions::default()
+    };
+    assert_eq!(Source::open_all(&endpoint, &one).unwrap().len(), 1);
+}
+
+#[test]
+fn subjects_of_all_sources_are_sent_as_characters_of_their_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = record_twice(folder.path(), Duration::ZERO);
+    let sources = Source::open_all(&path.display().to_string().parse().unwrap(), &faster()).unwrap();
+    let receiver = Receiver::start("mxtp://127.0.0.1:0");
+    let sink = MxtpSink::open(std::slice::from_ref(&receiver.endpoint), types("02,12,13")).unwrap();
+    let progress = sink.progress();
+    let session = Session::start(sources, vec![Box::new(sink)], Stop::new());
+    session.wait().unwrap();
+    let sent = progress.lock().unwrap().frames;
+    let gathered = receiver.finish(sent);
+    gathered.assert_whole();
+    for character in 0..4 {
+        let pose = gathered.statistics_of(character, MessageType::QUATERNION);
+        assert_eq!(pose.counters.received, 72);
+    }
 }
 
 #[test]

@@ -1,15 +1,15 @@
 //! Recordings of live sources hold every payload as it was sent.
 
 use crate::datagrams::Raw;
-use crate::harness::{PATIENCE, open, play, seconds, types};
+use crate::harness::{Gatherer, PATIENCE, open, play, seconds, types};
 use mcap::records::Record;
 use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader};
 use posewire::endpoint::Endpoint;
 use posewire::recording::{Survey, Writer, WriterOptions, recover};
 use posewire::sink::{MxtpSink, NatNetSink, NatNetSinkOptions, RecordOptions, RecordSink};
 use posewire::stop::Stop;
-use posewire::{Datagram, Error, Session, Sink, SourceId, Wire};
-use posewire_motion::Stamp;
+use posewire::{Datagram, Error, Notice, Session, Sink, SourceId, Wire};
+use posewire_motion::{Skeleton, Stamp, Subject};
 use std::collections::BTreeMap;
 use std::fs;
 use std::net::UdpSocket;
@@ -264,4 +264,74 @@ fn what_comes_is_in_the_file_although_nothing_follows_it() {
     }
     stop.stop();
     session.wait().unwrap();
+}
+
+#[test]
+fn a_sender_that_describes_itself_anew_without_end_is_bounded_and_counted() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("take.mcap");
+    let mut writer = Writer::create(&path, &["mxtp://127.0.0.1:9763".to_owned()], WriterOptions::default()).unwrap();
+    let describe = |id: u32, number: u32| {
+        let mut subject = Subject::new("Mallory", Skeleton::default());
+        subject.id = id;
+        subject.tags = vec![("anew".to_owned(), number.to_string())];
+        Arc::new(subject)
+    };
+    for number in 0..10_000 {
+        writer.subject(SourceId(0), &describe(0, number)).unwrap();
+    }
+    assert_eq!(writer.descriptions_left_out(), 10_000 - 256);
+    // Another's are written all the same, until there are too many others.
+    for id in 1..20_000 {
+        writer.subject(SourceId(0), &describe(id, 0)).unwrap();
+    }
+    let subjects = 20_000 - Writer::MOST_SUBJECTS as u64;
+    assert_eq!(writer.descriptions_left_out(), 10_000 - 256 + subjects);
+    writer.finish().unwrap();
+    assert!(fs::metadata(&path).unwrap().len() < 16 << 20);
+    assert!(Survey::of(&path).unwrap().complete);
+}
+
+#[test]
+fn when_one_of_several_sources_fails_the_others_go_on_and_the_end_tells() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, cut) = (folder.path().join("take.mcap"), folder.path().join("cut.mvnx"));
+    fs::write(&cut, cut_take()).unwrap();
+    let stop = Stop::new();
+    let live = open("mxtp://127.0.0.1:0").unwrap();
+    let failing = open(cut.to_str().unwrap()).unwrap();
+    let endpoints = [live.endpoint().clone(), failing.endpoint().clone()];
+    let sink = RecordSink::create(&path, &endpoints, RecordOptions::default(), stop.clone()).unwrap();
+    let progress = sink.progress();
+    let told = Gatherer::default();
+    let session = Session::start(
+        [live, failing],
+        vec![Box::new(sink), Box::new(told.clone())],
+        stop.clone(),
+    );
+    told.wait_until(|told| {
+        told.notices
+            .iter()
+            .any(|notice| matches!(notice, Notice::Failed { .. }))
+    });
+
+    let sink = MxtpSink::open(&endpoints[..1], types("02")).unwrap();
+    let sent = play("synthetic:walk", &seconds(0.2), sink).targets[0].datagrams;
+    told.wait_until(|told| told.frames.len() as u64 >= sent);
+    stop.stop();
+    assert!(matches!(session.wait(), Err(Error::Take { .. })));
+    let progress = progress.lock().unwrap();
+    assert_eq!((progress.lost(), progress.sources[0].datagrams), (0, sent));
+    assert!(Survey::of(&path).unwrap().complete);
+}
+
+/// A take that ends within its 60th frame, long after it was opened.
+fn cut_take() -> String {
+    let head = "<mvnx version=\"4\"><subject label=\"Ada\" frameRate=\"240\" segmentCount=\"1\">
+        <segments><segment label=\"Pelvis\" id=\"1\"/></segments><frames segmentCount=\"1\">";
+    let frames = (0..60).map(|index| {
+        format!("<frame time=\"{index}\" index=\"{index}\" type=\"normal\"><orientation>1 0 0 0</orientation><position>0 0 1</position></frame>")
+    });
+    let whole = head.to_owned() + &frames.collect::<String>();
+    whole[..whole.len() - 20].to_owned()
 }

@@ -36,21 +36,22 @@ pub(super) fn walk(walk: &Walk, duration: Option<Duration>, stops: &Stops) -> an
 /// lost on this side.
 pub(super) fn live(
     endpoint: &Endpoint,
+    only: Option<&str>,
     duration: Option<Duration>,
     stops: &Stops,
 ) -> anyhow::Result<(Vec<Recording>, u64)> {
     let options = PlaybackOptions {
         speed: AT_ONCE,
+        only: only.map(str::to_owned),
         ..PlaybackOptions::default()
     };
-    let source = Source::open(endpoint, &options)?;
-    let verb = if source.is_live() { "receiving from" } else { "playing" };
-    say(format_args!("{verb} {}", source.endpoint()));
+    let sources = Source::open_all(endpoint, &options)?;
+    sources.iter().for_each(announce);
     let stop = stops.begin_capture();
     context::stop_after(&stop, duration);
     let (takes, teller) = (TakeSink::default(), Teller::default());
     let sinks: Vec<Box<dyn Sink>> = vec![Box::new(takes.clone()), Box::new(teller.clone())];
-    let session = Session::start([source], sinks, stop.clone());
+    let session = Session::start(sources, sinks, stop.clone());
     while !stop.wait(Duration::from_millis(200)) && session.is_running() {
         let frames = plural(takes.frames() as u64, "frame");
         show_progress(format_args!("receiving, Ctrl-C ends it: {frames}"));
@@ -71,6 +72,13 @@ pub(super) fn live(
         .into());
     }
     Ok((takes.into_iter().map(Recording::from).collect(), lost))
+}
+
+fn announce(source: &Source) {
+    match source.captured() {
+        Some(captured) => say(format_args!("playing {}, {}", source.endpoint(), captured.name)),
+        None => say(format_args!("receiving from {}", source.endpoint())),
+    }
 }
 
 /// A capture is played as fast as it can be read.

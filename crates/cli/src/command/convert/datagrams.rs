@@ -1,11 +1,13 @@
 //! Captures to captures: every datagram with its time.
 
+use super::refuse;
 use crate::cli::Convert;
 use crate::command::End;
 use crate::context::{self, say};
+use crate::error::Usage;
 use crate::json;
 use crate::plain::plural;
-use posewire::capture;
+use posewire::capture::{self, ConvertOptions};
 use posewire::endpoint::Endpoint;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -24,7 +26,11 @@ pub(super) fn paths(arguments: &Convert) -> Option<(PathBuf, PathBuf)> {
 
 pub(super) fn run(input: &Path, output: &Path, arguments: &Convert) -> anyhow::Result<End> {
     let stops = context::stops_on_interrupt()?;
-    let done = capture::convert(input, output, arguments.overwrite, &stops.work)?;
+    let options = ConvertOptions {
+        only: only(arguments)?,
+        overwrite: arguments.overwrite,
+    };
+    let done = capture::convert(input, output, &options, &stops.work)?;
     if arguments.json {
         json::print(&Record {
             kind: "capture",
@@ -43,6 +49,21 @@ pub(super) fn run(input: &Path, output: &Path, arguments: &Convert) -> anyhow::R
         ));
     }
     Ok(End::with_lost(u64::from(done.damage.is_some())))
+}
+
+/// The source that is named. Datagrams have no sections.
+fn only(arguments: &Convert) -> Result<Option<String>, Usage> {
+    if let Some(section) = arguments.sections().first() {
+        return Err(Usage {
+            problem: format!("--only {section}: datagrams are converted whole, expected a source or nothing"),
+            help: "leave it out, or choose a source by number or name, as in --only 0".to_owned(),
+        });
+    }
+    match arguments.sources().as_slice() {
+        [] => Ok(None),
+        [one] => Ok(Some((*one).to_owned())),
+        [first, ..] => Err(refuse::several_sources(first)),
+    }
 }
 
 /// What became of a capture.

@@ -20,6 +20,8 @@ pub(super) struct Plan {
     pub(super) samples: RangeInclusive<u32>,
     pub(super) rate: Option<f64>,
     pub(super) duration: Option<Duration>,
+    /// Of captures: the source that is converted, instead of all.
+    pub(super) only: Option<String>,
     pub(super) reading: ReadOptions,
     pub(super) writing: WriteOptions,
 }
@@ -60,8 +62,10 @@ impl Plan {
         for job in &jobs {
             refuse::other_formats(job.format, &arguments.of_format)?;
         }
+        let only = refuse::other_words(arguments, &jobs)?;
         let plan = Self {
             jobs,
+            only,
             samples: samples(arguments)?,
             rate: arguments.rate,
             duration: arguments.duration,
@@ -314,7 +318,7 @@ fn writing(arguments: &Convert) -> WriteOptions {
             Unit::Cm => posewire_motion::Unit::Centimetre,
             Unit::Mm => posewire_motion::Unit::Millimetre,
         }),
-        sections: (!arguments.only.is_empty()).then(|| arguments.only.clone()),
+        sections: Some(arguments.sections()).filter(|sections| !sections.is_empty()),
         mvnx: MvnxOptions {
             version: format.mvnx_version,
         },

@@ -3,7 +3,8 @@
 use super::plan::{Job, Source};
 use crate::cli::{Convert, OfFormat};
 use crate::error::Usage;
-use posewire::endpoint::FileFormat;
+use posewire::endpoint::{Endpoint, FileFormat};
+use posewire_motion::Section;
 
 /// A take is read from a file, some of it twice, and a file appears when it is whole: streams can do neither.
 pub(super) fn standard_streams(inputs: &[String], output: &str) -> Result<(), Usage> {
@@ -40,6 +41,30 @@ pub(super) fn other_formats(format: FileFormat, given: &OfFormat) -> Result<(), 
             problem: format!("{option} is for {}, and {format} is written", formats[0]),
             help: format!("leave {option} out, or write {}", formats[0]),
         }),
+    }
+}
+
+/// Words of `--only` that are no section, where nothing has sources of its own; else the one source that they name.
+pub(super) fn other_words(arguments: &Convert, jobs: &[Job]) -> Result<Option<String>, Usage> {
+    let is_capture = |job: &Job| matches!(job.source, Source::Live(Endpoint::Capture { .. }));
+    match arguments.sources().as_slice() {
+        [] => Ok(None),
+        [one] if jobs.iter().all(is_capture) => Ok(Some((*one).to_owned())),
+        [first, ..] if jobs.iter().all(is_capture) => Err(several_sources(first)),
+        [first, ..] => {
+            let names: Vec<_> = Section::ALL.iter().map(|section| section.name()).collect();
+            Err(Usage {
+                problem: format!("--only {first}: expected the name of a section: {}", names.join(", ")),
+                help: "name sections of the take; a recording or capture also has sources to choose from".to_owned(),
+            })
+        }
+    }
+}
+
+pub(super) fn several_sources(first: &str) -> Usage {
+    Usage {
+        problem: "--only names several sources, expected one".to_owned(),
+        help: format!("choose one of them, as in --only {first}"),
     }
 }
 

@@ -9,6 +9,7 @@ use posewire::stop::Stop;
 use posewire::{Item, Notice, Result, Sink, SourceId};
 use posewire_motion::Frame;
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// The newest of everything that a stream brought. Clones are the same board.
@@ -18,6 +19,8 @@ pub(super) struct Board {
     listening: Arc<str>,
     is_played: bool,
     newest: Arc<Mutex<Newest>>,
+    /// The samples of all boards that are shown together.
+    counted: Arc<AtomicU64>,
     count: Option<u64>,
     stop: Stop,
 }
@@ -51,12 +54,13 @@ impl Board {
             listening: endpoint.to_string().into(),
             is_played: false,
             newest: Arc::default(),
+            counted: Arc::default(),
             count,
             stop,
         }
     }
 
-    /// The same board for a file that is played.
+    /// The same board for a source of a file that is played.
     pub(super) fn playing(self, file: &Endpoint) -> Self {
         Self {
             listening: format!("{file}, {}", self.listening).into(),
@@ -65,9 +69,18 @@ impl Board {
         }
     }
 
-    /// The end that a session feeds.
-    pub(super) fn sink(&self) -> impl Sink + use<> {
-        BoardSink(self.clone())
+    /// The same board, one of several whose samples are counted together: `place` of `count`, from 0.
+    pub(super) fn beside(self, first: &Self, place: usize, count: usize) -> Self {
+        Self {
+            listening: format!("{}, source {} of {count}", self.listening, place + 1).into(),
+            counted: Arc::clone(&first.counted),
+            ..self
+        }
+    }
+
+    /// The end that a session feeds: the board of each of its sources.
+    pub(super) fn sink(boards: &[Self]) -> impl Sink + use<> {
+        BoardSink(boards.to_vec())
     }
 
     pub(super) fn listening(&self) -> &str {
@@ -125,7 +138,8 @@ impl Board {
     }
 }
 
-struct BoardSink(Board);
+/// A board for each source, in their order.
+struct BoardSink(Vec<Board>);
 
 impl Sink for BoardSink {
     /// Only the newest matters; but samples are counted, so none is to be lost in a burst.
@@ -133,14 +147,18 @@ impl Sink for BoardSink {
         (Policy::Lossless, QUEUED_ITEMS)
     }
 
-    fn accept(&mut self, _: SourceId, item: &Item) -> Result<()> {
-        let mut newest = self.0.lock();
+    fn accept(&mut self, source: SourceId, item: &Item) -> Result<()> {
+        let Some(board) = self.0.get(usize::from(source.0)) else {
+            return Ok(());
+        };
+        let mut newest = board.lock();
         match item {
             Item::Frame { frame, .. } => {
                 newest.frames.insert(frame.subject.id, Arc::clone(frame));
                 newest.samples += 1;
-                if self.0.count.is_some_and(|count| newest.samples >= count) {
-                    self.0.stop.stop();
+                let counted = board.counted.fetch_add(1, Ordering::Relaxed) + 1;
+                if board.count.is_some_and(|count| counted >= count) {
+                    board.stop.stop();
                 }
             }
             Item::Statistics(statistics) => newest.statistics = Some(Arc::clone(statistics)),
@@ -153,7 +171,7 @@ impl Sink for BoardSink {
 
     /// Nothing more will come: whoever shows the board is to end.
     fn finish(&mut self) -> Result<()> {
-        self.0.stop.stop();
+        self.0.iter().for_each(|board| board.stop.stop());
         Ok(())
     }
 }
@@ -171,7 +189,7 @@ mod tests {
     #[test]
     fn what_cannot_be_read_is_told_from_what_does_not_come() {
         let board = Board::new(&"mxtp://127.0.0.1:9763".parse().unwrap(), None, Stop::new());
-        let mut sink = board.sink();
+        let mut sink = Board::sink(std::slice::from_ref(&board));
         assert!(
             board
                 .hint()

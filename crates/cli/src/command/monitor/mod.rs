@@ -16,8 +16,8 @@ use board::Board;
 use posewire::endpoint::Endpoint;
 use posewire::source::PlaybackOptions;
 use posewire::stop::Stop;
-use posewire::{Session, Sink, Source};
-use print::{Format, Printer};
+use posewire::{Session, Sink, Source, SourceId};
+use print::{Format, Names, Printer};
 use silence::Silence;
 use std::time::{Duration, Instant};
 
@@ -26,11 +26,11 @@ pub(super) fn run(arguments: &Monitor) -> anyhow::Result<End> {
     let endpoint: Endpoint = arguments.url.parse()?;
     refuse_takes(&endpoint)?;
     refuse::capture(&arguments.again.capture, &endpoint)?;
-    let source = Source::open(&endpoint, &playback_options(arguments))?;
-    refuse_playback(arguments, &source)?;
+    let sources = Source::open_all(&endpoint, &playback_options(arguments))?;
+    refuse_playback(arguments, &sources)?;
     context::stop_after(&stop, arguments.duration);
     let view = View::choose(arguments.json, arguments.frames, arguments.plain);
-    show(source, view, arguments.count, &stop)
+    show(sources, view, arguments.count, &stop)
 }
 
 fn playback_options(arguments: &Monitor) -> PlaybackOptions {
@@ -46,12 +46,13 @@ fn playback_options(arguments: &Monitor) -> PlaybackOptions {
 }
 
 /// A live stream comes as it comes.
-fn refuse_playback(arguments: &Monitor, source: &Source) -> Result<(), Usage> {
+fn refuse_playback(arguments: &Monitor, sources: &[Source]) -> Result<(), Usage> {
     let given = [
         ("--speed", arguments.again.speed.to_bits() != 1_f64.to_bits()),
         ("--loop", arguments.again.looped),
     ];
-    match given.into_iter().find(|(_, is_given)| *is_given && source.is_live()) {
+    let is_live = sources.iter().any(Source::is_live);
+    match given.into_iter().find(|(_, is_given)| *is_given && is_live) {
         None => Ok(()),
         Some((option, _)) => Err(Usage {
             problem: format!("{option} is for recordings and captures, and the source is a live stream"),
@@ -71,6 +72,20 @@ fn refuse_takes(endpoint: &Endpoint) -> Result<(), Usage> {
         problem: format!("expected a live stream to monitor, as mxtp://0.0.0.0:9763, found {endpoint}"),
         help,
     })
+}
+
+/// A board for each source.
+fn boards_of(sources: &[Source], count: Option<u64>, stop: &Stop) -> Vec<Board> {
+    let mut boards: Vec<Board> = Vec::new();
+    for (place, source) in sources.iter().enumerate() {
+        let board = board_of(source, count, stop);
+        boards.push(match boards.first() {
+            Some(first) => board.beside(first, place, sources.len()),
+            None if sources.len() > 1 => board.clone().beside(&board, place, sources.len()),
+            None => board,
+        });
+    }
+    boards
 }
 
 /// The board of a source; that of a capture is shown as what was captured.
@@ -104,37 +119,43 @@ impl View {
     }
 }
 
-/// Shows a stream until it ends, `count` samples have come or `stop` is set.
-pub(super) fn show(source: Source, view: View, count: Option<u64>, stop: &Stop) -> anyhow::Result<End> {
-    let board = board_of(&source, count, stop);
-    let watched = board.clone();
-    let is_live = source.is_live();
-    let mut sinks: Vec<Box<dyn Sink>> = vec![Box::new(board.sink())];
+/// Shows streams until they end, `count` samples have come or `stop` is set.
+pub(super) fn show(sources: Vec<Source>, view: View, count: Option<u64>, stop: &Stop) -> anyhow::Result<End> {
+    let boards = boards_of(&sources, count, stop);
+    let is_live = sources.iter().any(Source::is_live);
+    let names = Names::of(&sources);
+    let mut sinks: Vec<Box<dyn Sink>> = vec![Box::new(Board::sink(&boards))];
     match view {
         View::Print(format) => {
-            say(board.opening());
-            sinks.push(Box::new(Printer::new(format, count)));
-            let session = Session::start([source], sinks, stop.clone());
-            if is_live {
-                warn_of_silence(&watched, &session, stop);
+            for board in &boards {
+                say(board.opening());
             }
-            finish(session, &watched, view)
+            sinks.push(Box::new(Printer::new(format, count, names.clone())));
+            let session = Session::start(sources, sinks, stop.clone());
+            if is_live {
+                warn_of_silence(&boards, &session, stop);
+            }
+            finish(session, &boards, &names, view)
         }
         View::Page => {
-            let session = Session::start([source], sinks, stop.clone());
-            let shown = page::run(&watched, stop);
+            let session = Session::start(sources, sinks, stop.clone());
+            let shown = page::run(&boards, stop);
             stop.stop();
-            let end = finish(session, &watched, view)?;
+            let end = finish(session, &boards, &names, view)?;
             shown.map(|()| end)
         }
     }
 }
 
-fn finish(session: Session, board: &Board, view: View) -> anyhow::Result<End> {
+fn finish(session: Session, boards: &[Board], names: &Names, view: View) -> anyhow::Result<End> {
     let outcome = session.wait()?;
-    let last = board.statistics();
-    if let (View::Page, Some(last)) = (view, &last) {
-        print::print_plain(last)?;
+    let mut lost = outcome.dropped;
+    for (id, board) in (0..=u16::MAX).map(SourceId).zip(boards) {
+        let Some(last) = board.statistics() else { continue };
+        lost += last.lost_here();
+        if view == View::Page {
+            print::print_plain(&last, names.heading(id))?;
+        }
     }
     if outcome.dropped > 0 {
         say(format_args!(
@@ -142,17 +163,17 @@ fn finish(session: Session, board: &Board, view: View) -> anyhow::Result<End> {
             outcome.dropped
         ));
     }
-    Ok(End::with_lost(
-        outcome.dropped + last.map_or(0, |last| last.lost_here()),
-    ))
+    Ok(End::with_lost(lost))
 }
 
 /// Says what to check whenever nothing that can be read has come for three seconds.
-fn warn_of_silence(board: &Board, session: &Session, stop: &Stop) {
-    let mut silence = Silence::new(Instant::now());
+fn warn_of_silence(boards: &[Board], session: &Session, stop: &Stop) {
+    let mut silences: Vec<_> = boards.iter().map(|_| Silence::new(Instant::now())).collect();
     while session.is_running() && !stop.wait(LOOK_EVERY) {
-        if silence.is_to_be_told(board.heard(), Instant::now()) {
-            say(board.hint());
+        for (board, silence) in boards.iter().zip(&mut silences) {
+            if silence.is_to_be_told(board.heard(), Instant::now()) {
+                say(board.hint());
+            }
         }
     }
 }

@@ -34,29 +34,40 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::thread;
 use std::time::{Duration, Instant};
 use theme::Theme;
+use view::View;
 use watch::Watch;
 
-/// Shows the board until `q` is pressed or `stop` is set.
-pub(super) fn run(board: &Board, stop: &Stop) -> anyhow::Result<()> {
+/// Shows the boards, one at a time, until `q` is pressed or `stop` is set.
+pub(super) fn run(boards: &[Board], stop: &Stop) -> anyhow::Result<()> {
     let mut screen = Screen::open()?;
     let keys = read_keys();
-    let mut watch = Watch::new(Instant::now());
-    let mut controls = Controls::default();
+    let mut watches: Vec<_> = boards.iter().map(|_| Watch::new(Instant::now())).collect();
+    let mut controls = Controls {
+        sources: boards.len(),
+        ..Controls::default()
+    };
     let theme = Theme::of_terminal();
-    let mut view = watch.look(board, Instant::now());
+    let mut views = look(&mut watches, boards, Instant::now());
     while !stop.is_stopped() && !controls.quit {
         let begun = Instant::now();
         if !controls.paused {
-            view = watch.look(board, begun);
+            views = look(&mut watches, boards, begun);
         }
+        let Some(view) = views.get(controls.source) else { break };
         let mut turns: &[Pane] = &[];
         screen
             .0
-            .draw(|frame| turns = draw::draw(frame, &view, &controls, theme))?;
+            .draw(|frame| turns = draw::draw(frame, view, &controls, theme))?;
         controls.turns = turns;
         press_keys(&keys, &mut controls, &view.ids(), begun + PICTURE);
     }
     Ok(())
+}
+
+/// Also at those that are not shown, which go on.
+fn look(watches: &mut [Watch], boards: &[Board], now: Instant) -> Vec<View> {
+    let both = watches.iter_mut().zip(boards);
+    both.map(|(watch, board)| watch.look(board, now)).collect()
 }
 
 /// Reads keys on a thread of its own, which lives as long as the program: reading from a terminal that has been closed

@@ -2,11 +2,13 @@
 
 use super::board::QUEUED_ITEMS;
 use crate::context::say;
+use crate::plain::printable;
 use crate::{json, render};
 use posewire::queue::Policy;
 use posewire::stats::Statistics;
-use posewire::{Error, Item, Result, Sink, SourceId};
+use posewire::{Error, Item, Result, Sink, Source, SourceId};
 use posewire_motion::Frame;
+use serde::Serialize;
 use std::io::{BufWriter, Stdout, Write};
 
 /// How a stream is printed.
@@ -18,42 +20,73 @@ pub(in crate::command) enum Format {
     Json { frames: bool },
 }
 
-/// Prints a stream to the standard output.
+/// How each of several sources of a capture is told from the others; empty when there is one.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Names(Vec<(u16, String)>);
+
+impl Names {
+    pub(super) fn of(sources: &[Source]) -> Self {
+        let captured = sources.iter().filter_map(Source::captured);
+        let names: Vec<_> = captured.map(|source| (source.number, source.name.clone())).collect();
+        Self(if names.len() > 1 { names } else { Vec::new() })
+    }
+
+    /// What stands above the table of a source.
+    pub(super) fn heading(&self, source: SourceId) -> Option<String> {
+        let (number, name) = self.0.get(usize::from(source.0))?;
+        Some(format!("source {number} {}", printable(name)))
+    }
+
+    fn number(&self, source: SourceId) -> Option<u16> {
+        self.0.get(usize::from(source.0)).map(|(number, _)| *number)
+    }
+}
+
+/// Prints streams to the standard output.
 pub(super) struct Printer {
     format: Format,
+    names: Names,
     /// How many samples are still to be printed; `None` is all that come.
     left: Option<u64>,
     out: BufWriter<Stdout>,
 }
 
 impl Printer {
-    pub(super) fn new(format: Format, count: Option<u64>) -> Self {
+    pub(super) fn new(format: Format, count: Option<u64>, names: Names) -> Self {
         Self {
             format,
+            names,
             left: count,
             out: BufWriter::new(std::io::stdout()),
         }
     }
 
-    fn frame(&mut self, frame: &Frame) -> Result<()> {
+    fn write(&mut self, source: SourceId, record: &impl Serialize) -> Result<()> {
+        match self.names.number(source) {
+            Some(source) => json::write(&mut self.out, &json::OfSource { record, source }),
+            None => json::write(&mut self.out, record),
+        }
+    }
+
+    fn frame(&mut self, source: SourceId, frame: &Frame) -> Result<()> {
         if self.format != (Format::Json { frames: true }) || self.left == Some(0) {
             return Ok(());
         }
         self.left = self.left.map(|left| left - 1);
-        json::write(&mut self.out, &json::FrameRecord::new(frame))?;
+        self.write(source, &json::FrameRecord::new(frame))?;
         // Who reads the samples as they come wants each one now.
         self.flush()
     }
 
-    fn statistics(&mut self, statistics: &Statistics) -> Result<()> {
+    fn statistics(&mut self, source: SourceId, statistics: &Statistics) -> Result<()> {
         match self.format {
-            Format::Plain => write_plain(&mut self.out, statistics)?,
+            Format::Plain => write_plain(&mut self.out, statistics, self.names.heading(source))?,
             Format::Json { .. } => {
-                json::write(&mut self.out, &json::ReceiverRecord::new(statistics))?;
+                self.write(source, &json::ReceiverRecord::new(statistics))?;
                 if let Some(server) = json::ServerRecord::new(statistics) {
-                    json::write(&mut self.out, &server)?;
+                    self.write(source, &server)?;
                 }
-                json::statistics(statistics).try_for_each(|object| json::write(&mut self.out, &object))?;
+                json::statistics(statistics).try_for_each(|object| self.write(source, &object))?;
             }
         }
         self.flush()
@@ -69,13 +102,13 @@ impl Sink for Printer {
         (Policy::Lossless, QUEUED_ITEMS)
     }
 
-    fn accept(&mut self, _: SourceId, item: &Item) -> Result<()> {
+    fn accept(&mut self, source: SourceId, item: &Item) -> Result<()> {
         match item {
-            Item::Frame { frame, .. } => self.frame(frame),
+            Item::Frame { frame, .. } => self.frame(source, frame),
             Item::Subject(subject) if self.format == (Format::Json { frames: true }) => {
-                json::write(&mut self.out, &json::SubjectRecord::new(subject))
+                self.write(source, &json::SubjectRecord::new(subject))
             }
-            Item::Statistics(statistics) => self.statistics(statistics),
+            Item::Statistics(statistics) => self.statistics(source, statistics),
             Item::Notice(notice) => {
                 say(notice);
                 Ok(())
@@ -89,13 +122,14 @@ impl Sink for Printer {
     }
 }
 
-/// Prints the table of a stream.
-pub(super) fn print_plain(statistics: &Statistics) -> Result<()> {
-    write_plain(&mut std::io::stdout().lock(), statistics)
+/// Prints the table of a stream, below its heading if it has one.
+pub(super) fn print_plain(statistics: &Statistics, heading: Option<String>) -> Result<()> {
+    write_plain(&mut std::io::stdout().lock(), statistics, heading)
 }
 
-fn write_plain(out: &mut impl Write, statistics: &Statistics) -> Result<()> {
-    writeln!(out, "{}", render::statistics(statistics)).map_err(|error| broken(&error))
+fn write_plain(out: &mut impl Write, statistics: &Statistics, heading: Option<String>) -> Result<()> {
+    let heading = heading.map_or_else(String::new, |heading| heading + "\n");
+    writeln!(out, "{heading}{}", render::statistics(statistics)).map_err(|error| broken(&error))
 }
 
 fn broken(error: &std::io::Error) -> Error {

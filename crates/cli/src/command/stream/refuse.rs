@@ -67,6 +67,21 @@ pub(super) fn silence(arguments: &Stream, targets: &[&NatNetAddress]) -> Result<
     })
 }
 
+/// The frames of a NatNet server have one numbering, and sources have one each.
+pub(super) fn several(sources: &[Source], targets: &[&NatNetAddress]) -> Result<(), Usage> {
+    let captured = sources.iter().filter_map(Source::captured);
+    let found: Vec<_> = captured
+        .map(|source| format!("{} {}", source.number, source.name))
+        .collect();
+    if targets.is_empty() || found.len() < 2 {
+        return Ok(());
+    }
+    Err(Usage {
+        problem: format!("a natnet:// target takes one source, found {}", found.join(", ")),
+        help: "choose one by number or name, as in --only 0; mxtp:// targets take all of them".to_owned(),
+    })
+}
+
 /// Every subject needs a character number that fits into a byte.
 pub(super) fn too_many(source: &Source, options: &MxtpSinkOptions) -> posewire::Result<()> {
     let last = source

@@ -5,10 +5,12 @@ use crate::cli::{Revision, Stream};
 use posewire::capture::Protocol;
 use posewire::endpoint::Endpoint;
 use posewire::faults::FaultPlan;
-use posewire::sink::{MxtpSink, MxtpSinkOptions, NatNetSink, NatNetSinkOptions, Progress};
+use posewire::sink::{Fit, MxtpSink, MxtpSinkOptions, NatNetSink, NatNetSinkOptions, Progress};
+use posewire::source::Preview;
 use posewire::stop::Stop;
-use posewire::{Sink, Source};
+use posewire::{Sink, Source, SourceId};
 use posewire_mxtp::motion::MessageTypes;
+use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
@@ -24,7 +26,7 @@ impl Sinks {
     /// Opens a sink for every target; each makes the faults of the plan by itself.
     pub(super) fn open(
         arguments: &Stream,
-        source: &Source,
+        sources: &[Source],
         targets: &[Endpoint],
         faults: Option<&FaultPlan>,
     ) -> anyhow::Result<Self> {
@@ -37,7 +39,8 @@ impl Sinks {
             }
         }
         refuse::silence(arguments, &natnet_addresses)?;
-        let mxtp = mxtp_options(arguments, source, &others)?.map(|options| MxtpSinkOptions {
+        refuse::several(sources, &natnet_addresses)?;
+        let mxtp = mxtp_options(arguments, sources, &others)?.map(|options| MxtpSinkOptions {
             faults: faults.cloned(),
             ..options
         });
@@ -45,14 +48,15 @@ impl Sinks {
         let types = mxtp.as_ref().map(MxtpSink::types);
         let options = NatNetSinkOptions {
             faults: faults.cloned(),
-            ..natnet_options(arguments, source)
+            ..natnet_options(arguments, sources.iter().find_map(Source::preview))
         };
         let open = |address| NatNetSink::open(address, options.clone());
         let mut natnet = natnet_addresses
             .into_iter()
             .map(open)
             .collect::<posewire::Result<Vec<_>>>()?;
-        for subject in source.preview().iter().flat_map(|preview| &preview.subjects) {
+        let previews = sources.iter().filter_map(Source::preview);
+        for subject in previews.flat_map(|preview| &preview.subjects) {
             natnet.iter_mut().try_for_each(|sink| sink.describe(subject))?;
         }
         Ok(Self { mxtp, natnet, types })
@@ -91,13 +95,17 @@ impl Handles {
 }
 
 /// How MXTP is sent, if it is to be.
-fn mxtp_options(arguments: &Stream, source: &Source, targets: &[Endpoint]) -> anyhow::Result<Option<MxtpSinkOptions>> {
+fn mxtp_options(
+    arguments: &Stream,
+    sources: &[Source],
+    targets: &[Endpoint],
+) -> anyhow::Result<Option<MxtpSinkOptions>> {
     if targets.is_empty() {
         refuse::mxtp_options(arguments)?;
         return Ok(None);
     }
     let options = MxtpSinkOptions {
-        types: types::choose(&arguments.types, source.preview())?,
+        types: types::choose(&arguments.types, sources.iter().find_map(Source::preview))?,
         revision: match arguments.revision {
             Revision::N => posewire_mxtp::Revision::N,
             Revision::J => posewire_mxtp::Revision::J,
@@ -105,14 +113,29 @@ fn mxtp_options(arguments: &Stream, source: &Source, targets: &[Endpoint]) -> an
         split: arguments.split.map(|bytes| bytes as usize),
         character: arguments.character,
         name: arguments.name.clone(),
-        fit: is_natnet(source),
+        fit: fit(sources),
         faults: None,
     };
-    if options.fit {
+    if options.fit == Fit::All {
         types::refuse_unfitted(&arguments.types, options.types)?;
     }
-    refuse::too_many(source, &options)?;
+    for source in sources {
+        refuse::too_many(source, &options)?;
+    }
     Ok(Some(options))
+}
+
+/// Whose subjects are to be fitted.
+fn fit(sources: &[Source]) -> Fit {
+    let places = (0..=u16::MAX).map(SourceId).zip(sources);
+    let natnet: BTreeSet<_> = places
+        .filter_map(|(id, source)| is_natnet(source).then_some(id))
+        .collect();
+    match natnet.len() {
+        0 => Fit::Nobody,
+        count if count == sources.len() => Fit::All,
+        _ => Fit::Of(natnet),
+    }
 }
 
 /// Whether subjects come as another system has them.
@@ -122,8 +145,8 @@ fn is_natnet(source: &Source) -> bool {
 }
 
 /// Clients are told the rate at which samples leave, where that is known.
-fn natnet_options(arguments: &Stream, source: &Source) -> NatNetSinkOptions {
-    let rate = source.preview().map(|preview| {
+fn natnet_options(arguments: &Stream, preview: Option<&Preview>) -> NatNetSinkOptions {
+    let rate = preview.map(|preview| {
         let captured = arguments.playback.rate.unwrap_or(preview.rate_hz);
         captured * arguments.playback.speed
     });

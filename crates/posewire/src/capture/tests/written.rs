@@ -58,8 +58,18 @@ fn from_pcapng_to_pcap_and_back_nothing_is_lost() {
         .map(|number| datagram(Wire::MxtpUdp, i64::from(number) * 4_166_667, mxtp(number, 65_507)))
         .collect();
     write(&first, &sent);
-    assert_eq!(convert(&first, &second, false, &Stop::new()).unwrap().datagrams, 50);
-    assert_eq!(convert(&second, &third, false, &Stop::new()).unwrap().damage, None);
+    assert_eq!(
+        convert(&first, &second, &ConvertOptions::default(), &Stop::new())
+            .unwrap()
+            .datagrams,
+        50
+    );
+    assert_eq!(
+        convert(&second, &third, &ConvertOptions::default(), &Stop::new())
+            .unwrap()
+            .damage,
+        None
+    );
     assert_eq!(read_file(&third), sent);
 }
 

@@ -49,16 +49,17 @@ impl Fitting {
         .with(MessageType::CENTER_OF_MASS);
 
     /// Takes the types that fitted frames never fill out of `types`, and tells of it.
-    pub(super) fn new(types: &mut MessageTypes) -> Self {
-        let mut fitting = Self::default();
+    pub(super) fn leave_out_types(types: &mut MessageTypes) -> Vec<LeftOut> {
         let wanted = *types;
-        for message_type in Self::NEVER.iter().filter(|never| wanted.contains(*never)) {
+        let never = Self::NEVER.iter().filter(|never| wanted.contains(*never));
+        let left_out = never.map(|message_type| {
             *types = types.without(message_type);
-            let what = format!("datagram type {message_type} ({})", message_type.name());
-            let why = "the source does not carry what it holds";
-            fitting.leave_out(LeftOut { what, why });
-        }
-        fitting
+            LeftOut {
+                what: format!("datagram type {message_type} ({})", message_type.name()),
+                why: "the source does not carry what it holds",
+            }
+        });
+        left_out.collect()
     }
 
     /// The character that a subject is; `None` for what is none.

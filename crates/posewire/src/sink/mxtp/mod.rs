@@ -1,21 +1,22 @@
 //! MXTP to the network, as MVN's Network Streamer sends it.
 
+mod characters;
 mod fitting;
 mod target;
 mod tcp;
 
-use super::OnlySource;
-use super::{Progress, Sink, TargetProgress};
+use super::{LeftOut, Progress, Sink, TargetProgress};
 use crate::endpoint::Endpoint;
 use crate::faults::{FaultPlan, LiveFaults};
 use crate::histogram::DurationHistogram;
 use crate::stop::Stop;
-use crate::{Error, Item, Result, SourceId};
+use crate::{Item, Result, SourceId};
+use characters::Characters;
 use fitting::Fitting;
 use posewire_motion::{Frame, Subject};
 use posewire_mxtp::Revision;
-use posewire_mxtp::motion::{Datagrams, Encoder, EncoderOptions, MessageTypes};
-use std::collections::BTreeMap;
+use posewire_mxtp::motion::{Datagrams, MessageTypes};
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 pub(crate) use target::Target;
@@ -33,10 +34,8 @@ pub struct MxtpSinkOptions {
     pub character: u8,
     /// A name instead of the subject's own.
     pub name: Option<String>,
-    /// Whether subjects are fitted to MVN's skeleton, as those of another system must be: skeletons are recognised by
-    /// the names of their segments, as MVN or Motive has them, and what is no person is left out. So are the types of
-    /// [`MxtpSink::NOT_FITTED`].
-    pub fit: bool,
+    /// Whose subjects are fitted to MVN's skeleton.
+    pub fit: Fit,
     /// What is to go wrong with the datagrams, the same for every target.
     pub faults: Option<FaultPlan>,
 }
@@ -50,8 +49,32 @@ impl Default for MxtpSinkOptions {
             split: None,
             character: 0,
             name: None,
-            fit: false,
+            fit: Fit::Nobody,
             faults: None,
+        }
+    }
+}
+
+/// Whose subjects are fitted to MVN's skeleton, as those of another system must be: skeletons are recognised by the names of their
+/// segments, as MVN or Motive has them, and what is no person is left out. So are the types of [`MxtpSink::NOT_FITTED`].
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Fit {
+    /// All subjects are MVN's already.
+    #[default]
+    Nobody,
+    /// The subjects of all sources.
+    All,
+    /// The subjects of these sources.
+    Of(BTreeSet<SourceId>),
+}
+
+impl Fit {
+    fn includes(&self, source: SourceId) -> bool {
+        match self {
+            Self::Nobody => false,
+            Self::All => true,
+            Self::Of(sources) => sources.contains(&source),
         }
     }
 }
@@ -61,24 +84,21 @@ impl Default for MxtpSinkOptions {
 /// Meta data and scale (types 12 and 13) go out before a subject's first frame and once a second. UDP targets are sent
 /// to at once and never waited for. Each TCP peer has a queue and a thread of its own: one that stalls loses its oldest
 /// whole samples, which are counted, and delays no other target.
+///
+/// A subject is the character of its number at its source. Where another source has that one already, it is the first that is free.
 pub struct MxtpSink {
     options: MxtpSinkOptions,
-    only: OnlySource,
     targets: Vec<Target>,
-    characters: BTreeMap<u32, Character>,
-    fitting: Option<Fitting>,
+    characters: Characters,
+    /// Of each source that is fitted.
+    fittings: BTreeMap<SourceId, Fitting>,
+    /// What was left out from the beginning.
+    never: Vec<LeftOut>,
     datagrams: Datagrams,
     faults: Option<LiveFaults>,
     progress: Arc<Mutex<Progress>>,
     lateness: DurationHistogram,
     next_summary: Instant,
-}
-
-/// A subject that is streamed.
-struct Character {
-    encoder: Encoder,
-    subject: Arc<Subject>,
-    next_description: Option<Instant>,
 }
 
 impl MxtpSink {
@@ -93,12 +113,15 @@ impl MxtpSink {
     pub fn open(targets: &[Endpoint], mut options: MxtpSinkOptions) -> Result<Self> {
         let targets = targets.iter().map(Target::open).collect::<Result<Vec<_>>>()?;
         let sink = Self {
-            fitting: options.fit.then(|| Fitting::new(&mut options.types)),
+            never: match options.fit {
+                Fit::All => Fitting::leave_out_types(&mut options.types),
+                _ => Vec::new(),
+            },
+            characters: Characters::new(options.clone()),
+            fittings: BTreeMap::new(),
             faults: options.faults.clone().map(LiveFaults::new),
             options,
-            only: OnlySource::default(),
             targets,
-            characters: BTreeMap::new(),
             datagrams: Datagrams::default(),
             progress: Arc::default(),
             lateness: DurationHistogram::new(),
@@ -129,87 +152,45 @@ impl MxtpSink {
         Arc::clone(&self.progress)
     }
 
-    fn describe(&mut self, subject: &Arc<Subject>) -> Result<()> {
-        let number = u32::from(self.options.character).saturating_add(subject.id);
-        let Ok(character) = u8::try_from(number) else {
-            return Err(Error::Character { found: number });
-        };
-        let subject = match &self.options.name {
-            Some(name) => Arc::new(Subject {
-                name: name.clone(),
-                ..(**subject).clone()
-            }),
-            None => Arc::clone(subject),
-        };
-        let encoder = Encoder::new(EncoderOptions {
-            types: self.options.types,
-            revision: self.options.revision,
-            split: self.options.split,
-            character,
-            ..EncoderOptions::default()
-        });
-        self.characters.insert(
-            subject.id,
-            Character {
-                encoder,
-                subject,
-                next_description: None,
-            },
-        );
-        self.count_characters();
-        Ok(())
-    }
-
-    /// Every character's meta data says how many there are.
-    fn count_characters(&mut self) {
-        let characters = self.characters.len() as u32;
-        for character in self.characters.values_mut() {
-            let options = EncoderOptions {
-                characters,
-                ..character.encoder.options().clone()
-            };
-            character.encoder = Encoder::new(options);
-        }
-    }
-
     /// Describes the character that a subject is, if it is one.
-    fn describe_fitted(&mut self, subject: &Arc<Subject>) -> Result<()> {
-        let Some(fitting) = &mut self.fitting else {
-            return self.describe(subject);
+    fn describe(&mut self, source: SourceId, subject: &Arc<Subject>) -> Result<()> {
+        let Some(fitting) = self.fitting(source) else {
+            return self.characters.describe(source, subject);
         };
         let character = fitting.character(subject);
         self.tell_left_out();
-        character.map_or(Ok(()), |character| self.describe(&character))
+        character.map_or(Ok(()), |character| self.characters.describe(source, &character))
     }
 
-    fn send_fitted(&mut self, frame: &Frame, due: Option<Instant>) -> Result<()> {
-        let Some(fitting) = &mut self.fitting else {
-            return self.send_frame(frame, due);
+    fn send_fitted(&mut self, source: SourceId, frame: &Frame, due: Option<Instant>) -> Result<()> {
+        let Some(fitting) = self.fitting(source) else {
+            return self.send_frame(source, frame, due);
         };
         if let Some(frame) = fitting.frame(frame) {
-            return self.send_frame(&frame, due);
+            return self.send_frame(source, &frame, due);
         }
         self.tell_left_out();
         Ok(())
     }
 
+    fn fitting(&mut self, source: SourceId) -> Option<&mut Fitting> {
+        let is_fitted = self.options.fit.includes(source);
+        is_fitted.then(|| self.fittings.entry(source).or_default())
+    }
+
     fn tell_left_out(&self) {
-        let left_out = self.fitting.as_ref().map(Fitting::left_out).unwrap_or_default();
+        let fitted = self.fittings.values().flat_map(Fitting::left_out);
+        let left_out: Vec<_> = self.never.iter().chain(fitted).collect();
         let mut progress = self.lock_progress();
         if progress.left_out.len() < left_out.len() {
-            progress.left_out = left_out.to_vec();
+            progress.left_out = left_out.into_iter().cloned().collect();
         }
     }
 
-    fn send_frame(&mut self, frame: &Frame, due: Option<Instant>) -> Result<()> {
-        if !self.characters.contains_key(&frame.subject.id) {
-            self.describe(&frame.subject)?;
-        }
-        let Some(character) = self.characters.get_mut(&frame.subject.id) else {
-            return Ok(());
-        };
+    fn send_frame(&mut self, source: SourceId, frame: &Frame, due: Option<Instant>) -> Result<()> {
         // By what was due rather than by the clock, so that a take is the same datagrams whenever it is played.
         let now = due.unwrap_or_else(Instant::now);
+        let character = self.characters.of(source, &frame.subject)?;
         if character.next_description.is_none_or(|next| next <= now) {
             character.next_description = Some(now + DESCRIBE_EVERY);
             self.datagrams.clear();
@@ -285,10 +266,9 @@ fn leave(faults: &mut LiveFaults, datagrams: &mut Datagrams) {
 
 impl Sink for MxtpSink {
     fn accept(&mut self, source: SourceId, item: &Item) -> Result<()> {
-        self.only.check(source)?;
         match item {
-            Item::Subject(subject) => self.describe_fitted(subject),
-            Item::Frame { frame, due } => self.send_fitted(frame, *due),
+            Item::Subject(subject) => self.describe(source, subject),
+            Item::Frame { frame, due } => self.send_fitted(source, frame, *due),
             _ => Ok(()),
         }
     }

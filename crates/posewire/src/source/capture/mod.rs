@@ -5,51 +5,75 @@ mod decoder;
 use self::decoder::Decoder;
 use super::playback::PlaybackOptions;
 use super::report::TICK;
-use crate::capture::{CaptureOptions, CapturedSource, Opening, Playlist, Protocol, Selection, Survey};
+use crate::capture::{CaptureOptions, CapturedSource, Due, Opening, Playlist, Protocol, Selection, Survey};
 use crate::pacer::Pacer;
 use crate::session::Outlet;
 use crate::stop::Stop;
-use crate::{Error, Notice, Result};
+use crate::{Error, Item, Notice, Result};
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
-/// One source of a capture, to be played at its own pace.
+/// One source of a capture, to be played at the pace of the day, together with the others that were opened with it.
 #[derive(Debug)]
 pub(super) struct CapturePlayback {
     path: PathBuf,
     options: PlaybackOptions,
+    /// The datagrams of all that are played together, by which each knows when its own are due.
     playlist: Playlist,
     source: CapturedSource,
     opening: Option<Opening>,
+    together: Together,
+}
+
+/// What sources have in common that are played together.
+#[derive(Clone, Debug)]
+struct Together {
+    /// When the first of them began.
+    began: Arc<OnceLock<Instant>>,
+    /// All of them read the same file, and one says what is wrong with it.
+    damage_told: Arc<OnceLock<()>>,
+    count: usize,
 }
 
 impl CapturePlayback {
+    /// Opens the one source that is meant.
     pub(super) fn open(path: &Path, options: &PlaybackOptions) -> Result<Self> {
-        Pacer::new(Instant::now(), options.speed, Stop::new())?;
-        if let Some(rate) = options.rate_hz {
-            return Err(Error::CaptureRate {
-                found: rate.to_string(),
-            });
+        let survey = survey(path, options)?;
+        let source = survey.choose(path, options.only.as_deref())?;
+        Self::of(path, options, source, &Together::of(1))
+    }
+
+    /// Opens each source that is meant; all of them if none is named.
+    pub(super) fn open_all(path: &Path, options: &PlaybackOptions) -> Result<Vec<Self>> {
+        let survey = survey(path, options)?;
+        let sources = survey.chosen(path, options.only.as_deref())?;
+        if sources.len() > MOST_TOGETHER {
+            // It names them all, and asks for one.
+            survey.choose(path, None)?;
         }
-        let reading = CaptureOptions {
-            protocol: options.protocol,
-        };
-        let survey = Survey::of(path, &reading)?;
-        let source = survey.choose(path, options.only.as_deref())?.clone();
+        let together = Together::of(sources.len());
+        let open = |source| Self::of(path, options, source, &together);
+        sources.into_iter().map(open).collect()
+    }
+
+    fn of(path: &Path, options: &PlaybackOptions, source: &CapturedSource, together: &Together) -> Result<Self> {
+        let reading = reading(options);
         let selection = Selection {
-            source: Some(source.number),
+            source: (together.count == 1).then_some(source.number),
             ..options.selection()
         };
         let opening = match source.protocol {
-            Some(Protocol::NatNet) => Some(Opening::find(path, &reading, &source)?),
+            Some(Protocol::NatNet) => Some(Opening::find(path, &reading, source)?),
             _ => None,
         };
         Ok(Self {
             path: path.to_owned(),
             options: options.clone(),
             playlist: Playlist::open(path, &reading, selection)?,
-            source,
+            source: source.clone(),
             opening,
+            together: together.clone(),
         })
     }
 
@@ -59,34 +83,23 @@ impl CapturePlayback {
     }
 
     pub(super) fn run(mut self, outlet: &mut Outlet, stop: &Stop) -> Result<()> {
-        let Some(mut next) = self.playlist.next()? else {
-            return Err(Error::NoDatagrams {
-                path: self.path,
-                found: "none in that time".to_owned(),
-            });
+        let began = *self.together.began.get_or_init(Instant::now);
+        let mut pacer = Pacer::new(began, self.options.speed, stop.clone())?;
+        let Some(first) = self.next()? else {
+            return self.end_without_any(outlet);
         };
+        if self.is_over(first.offset) || !pacer.wait(first.offset) {
+            return Ok(());
+        }
         // A copy from a file before is older than what is played.
-        let own = self.source.span.filter(|_| next.captured.is_repeated);
-        let start = own.map_or(next.captured.datagram.received, |(first, _)| first);
-        let mut pacer = Pacer::new(Instant::now(), self.options.speed, stop.clone())?;
-        let mut decoder = Decoder::new(start, self.opening.as_ref(), outlet);
-        let mut past = Duration::ZERO;
-        let played = loop {
-            if self.is_over(next.offset) || !pass(&mut pacer, past..next.offset, &mut decoder, &self.options) {
-                break Ok(());
-            }
-            past = next.offset;
-            let due = pacer.deadline(past);
-            if !decoder.take(&next.captured.datagram, due) {
-                break Ok(());
-            }
-            match self.playlist.next() {
-                Ok(Some(due)) => next = due,
-                Ok(None) => break Ok(()),
-                Err(error) => break Err(error),
-            }
-        };
-        if let Some(problem) = self.playlist.damage() {
+        let own = self.source.span.filter(|_| first.captured.is_repeated);
+        let start = own.map_or(first.captured.datagram.received, |(first, _)| first);
+        let opening = self.opening.take();
+        let mut decoder = Decoder::new(start, opening.as_ref(), outlet);
+        let played = self.play(first, &mut pacer, &mut decoder);
+        if let Some(problem) = self.playlist.damage()
+            && self.together.damage_told.set(()).is_ok()
+        {
             let problem = problem.to_owned();
             decoder.notice(Notice::Damaged { problem });
         }
@@ -94,11 +107,78 @@ impl CapturePlayback {
         played
     }
 
+    /// Plays from the first datagram on, whose time has come.
+    fn play(&mut self, first: Due, pacer: &mut Pacer, decoder: &mut Decoder<'_>) -> Result<()> {
+        let mut past = first.offset;
+        let mut next = Some(first);
+        while let Some(due) = next {
+            if self.is_over(due.offset) || !pass(pacer, past..due.offset, decoder, &self.options) {
+                break;
+            }
+            past = due.offset;
+            if !decoder.take(&due.captured.datagram, pacer.deadline(past)) {
+                break;
+            }
+            next = self.next()?;
+        }
+        Ok(())
+    }
+
+    /// The next datagram of this source.
+    fn next(&mut self) -> Result<Option<Due>> {
+        loop {
+            match self.playlist.next()? {
+                Some(due) if due.captured.source != self.source.number => {}
+                next => return Ok(next),
+            }
+        }
+    }
+
+    /// The part that is played may have datagrams of others alone; to have none at all is an error.
+    fn end_without_any(self, outlet: &mut Outlet) -> Result<()> {
+        if self.playlist.is_empty() {
+            return Err(Error::NoDatagrams {
+                path: self.path,
+                found: "none in that time".to_owned(),
+            });
+        }
+        let text = format!("{} has no datagram in that time", self.source.name);
+        outlet.push(Item::Notice(Notice::Remark { text }));
+        outlet.finish();
+        Ok(())
+    }
+
     fn is_over(&self, offset: Duration) -> bool {
         let wall = offset.as_secs_f64() / self.options.speed;
         self.options
             .duration
             .is_some_and(|duration| wall >= duration.as_secs_f64())
+    }
+}
+
+impl Together {
+    fn of(count: usize) -> Self {
+        Self {
+            began: Arc::default(),
+            damage_told: Arc::default(),
+            count,
+        }
+    }
+}
+
+fn survey(path: &Path, options: &PlaybackOptions) -> Result<Survey> {
+    Pacer::new(Instant::now(), options.speed, Stop::new())?;
+    if let Some(rate) = options.rate_hz {
+        return Err(Error::CaptureRate {
+            found: rate.to_string(),
+        });
+    }
+    Survey::of(path, &reading(options))
+}
+
+fn reading(options: &PlaybackOptions) -> CaptureOptions {
+    CaptureOptions {
+        protocol: options.protocol,
     }
 }
 
@@ -119,3 +199,6 @@ fn pass(
     }
     pacer.wait(time.end)
 }
+
+/// Each has a thread that reads the capture. So many sources are several systems; more of them are a network.
+const MOST_TOGETHER: usize = 64;

@@ -9,6 +9,9 @@ pub(super) struct Controls {
     pub(super) quit: bool,
     pub(super) paused: bool,
     pub(super) help: bool,
+    /// How many sources there are, and the place of the one that is shown.
+    pub(super) sources: usize,
+    pub(super) source: usize,
     /// The number of the chosen character; the first when none is chosen or it is not there.
     pub(super) selected: Option<u32>,
     /// The pane that is shown where there is no room for all of them.
@@ -52,6 +55,8 @@ impl Default for Controls {
             quit: false,
             paused: false,
             help: false,
+            sources: 1,
+            source: 0,
             selected: None,
             pane: Pane::default(),
             turns: &Pane::ALL,
@@ -81,6 +86,7 @@ impl Controls {
         match key {
             KeyCode::Down | KeyCode::Right | KeyCode::Char('j') => self.select(characters, 1),
             KeyCode::Up | KeyCode::Left | KeyCode::Char('k') => self.select(characters, -1),
+            KeyCode::Char('s') => self.show_next_source(),
             KeyCode::Tab => self.show_next(1),
             KeyCode::BackTab => self.show_next(self.turns.len().saturating_sub(1)),
             KeyCode::PageDown => self.scroll = self.scroll.saturating_add(SCROLL),
@@ -94,6 +100,14 @@ impl Controls {
         let place = characters.iter().position(|id| Some(*id) == self.selected).unwrap_or(0);
         let place = place.saturating_add_signed(by).min(characters.len().saturating_sub(1));
         self.selected = characters.get(place).copied();
+    }
+
+    /// Its characters are others.
+    fn show_next_source(&mut self) {
+        if self.sources > 1 {
+            self.source = (self.source + 1) % self.sources;
+            (self.selected, self.scroll) = (None, 0);
+        }
     }
 
     fn show_next(&mut self, by: usize) {
@@ -124,6 +138,20 @@ mod tests {
         assert_eq!(after(&[KeyCode::Down]).selected, Some(3));
         assert_eq!(after(&[KeyCode::Char('j'); 5]).selected, Some(7));
         assert_eq!(after(&[KeyCode::Down, KeyCode::Up, KeyCode::Up]).selected, Some(0));
+    }
+
+    #[test]
+    fn s_goes_round_the_sources() {
+        let mut controls = Controls {
+            sources: 2,
+            ..Controls::default()
+        };
+        let shown = [KeyCode::Down, KeyCode::Char('s'), KeyCode::Char('s')].map(|key| {
+            controls.press(key.into(), &[0, 3]);
+            (controls.source, controls.selected)
+        });
+        assert_eq!(shown, [(0, Some(3)), (1, None), (0, None)]);
+        assert_eq!(after(&[KeyCode::Char('s')]).source, 0);
     }
 
     #[test]

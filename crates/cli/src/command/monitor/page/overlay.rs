@@ -85,6 +85,7 @@ q, Esc, Ctrl-C   quit
 ↑ ↓  j k         another {subject}
 Tab  Shift-Tab   another pane, where they take turns
 PgUp PgDn Home   move a list that is too long
+s                another source, of a recording of several
 p, space         hold the picture, and go on
 ?                this box
 

@@ -208,7 +208,7 @@ mod tests {
     #[test]
     fn a_sample_ages_until_the_next_one_comes() {
         let (board, start) = (board(), Instant::now());
-        let (mut sink, mut watch) = (board.sink(), Watch::new(start));
+        let (mut sink, mut watch) = (Board::sink(std::slice::from_ref(&board)), Watch::new(start));
         let mut state_after = |milliseconds| {
             let view = watch.look(&board, start + Duration::from_millis(milliseconds));
             view.characters.first().map(Character::state)
@@ -225,7 +225,7 @@ mod tests {
     #[test]
     fn speed_is_what_came_between_two_statistics() {
         let (board, start) = (board(), Instant::now());
-        let (mut sink, mut watch) = (board.sink(), Watch::new(start));
+        let (mut sink, mut watch) = (Board::sink(std::slice::from_ref(&board)), Watch::new(start));
         let mut speed = |item: &Item| {
             sink.accept(SourceId(0), item).unwrap();
             watch.look(&board, start).bytes_per_second
