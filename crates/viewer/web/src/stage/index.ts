@@ -1,60 +1,267 @@
-import type { Subject, SubjectRecord, Vector } from '../protocol/types';
+import { Box3, NeutralToneMapping, Raycaster, Scene, Vector2, Vector3, WebGLRenderer } from 'three';
+import type { Subject, SubjectRecord } from '../protocol/types';
+import { Brush } from './brush';
+import { Eye } from './camera';
+import { draw } from './draw';
+import { DEFAULTS, type Preset, type StageOptions, type StageStats, type ViewState } from './options';
+import { Performer } from './performer';
+import { pick, pickPoints } from './pick';
+import { Pulse } from './pulse';
+import { AdaptiveQuality, QUALITY } from './quality';
+import { Floor } from './room/floor';
+import { Lights } from './room/lights';
+import { Sky } from './room/sky';
+import { type Look, LOOKS } from './room/theme';
+import { drawnBySoftware } from './software';
+import { Tags } from './tags';
 
-/** What the stage shows beside the performers' bodies. */
-export interface StageOptions {
-  /** The local axes of each segment. */
-  axes: boolean;
-  /** The ways that hands, feet, head and pelvis went. */
-  trails: boolean;
-  names: boolean;
-  /** Centre of mass and its projection onto the ground. */
-  com: boolean;
-  markers: boolean;
-  theme: 'dark' | 'light';
-  /** Subjects that are not drawn. */
-  hidden: Set<number>;
-}
+export type { Preset, StageOptions, StageStats, Theme, ViewState } from './options';
+export { subjectColor } from './palette';
 
-/** From where the camera looks at the performers. */
-export type Preset = 'front' | 'side' | 'top' | 'free';
-
-/** The camera, to be kept or shared: metres, Z up. */
-export interface ViewState {
-  position: Vector;
-  target: Vector;
-  follow: number | null;
-}
-
-/** What tests read from the stage. */
-export interface StageStats {
-  /** Frames drawn in each second, over the last second or so. */
-  fps: number;
-  /** The segments' origins as they are drawn: x, y, z per segment, metres, Z up; NaN where not drawn. */
-  positions(id: number): Float32Array;
-}
-
-/** The room in which performers are drawn. */
+/**
+ * The room in which performers are drawn. Canonical coordinates throughout: metres, X forward, Y left, Z up, which is
+ * also how the scene is, so that nothing is ever turned.
+ *
+ * It draws only when something changed: a sample, an option, the eye.
+ */
 export class Stage {
-  /** Called with the subject that was clicked, or null for none. */
+  /** Called with the subject that was clicked or tapped, null for none. */
   onSelect: ((id: number | null) => void) | null = null;
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly eye: Eye;
+  private readonly brush: Brush;
+  private readonly floor: Floor;
+  private readonly sky: Sky;
+  private readonly lights: Lights;
+  private readonly tags: Tags;
+  private readonly quality: AdaptiveQuality;
+  private readonly pulse: Pulse;
+  private readonly resized: ResizeObserver;
+  private options: StageOptions = { ...DEFAULTS };
+  private look: Look = LOOKS.dark;
+  private performers = new Map<number, Performer>();
+  private waiting = new Map<number, SubjectRecord>();
+  private followed: number | null = null;
+  private size = { width: 1, height: 1 };
+  private posesChanged = true;
+  private viewChanged = true;
+  private framedAt: number | null = null;
+  private pressed: { x: number; y: number } | null = null;
 
-  constructor(readonly canvas: HTMLCanvasElement) {}
-  setSubjects(_subjects: Subject[]): void {}
-  update(_records: SubjectRecord[]): void {}
-  setOptions(_options: Partial<StageOptions>): void {}
-  follow(_id: number | null): void {}
-  preset(_preset: Preset): void {}
-  view(): ViewState {
-    return { position: [4, 0, 2], target: [0, 0, 1], follow: null };
+  /** Throws where the browser has no WebGL 2. */
+  constructor(readonly canvas: HTMLCanvasElement) {
+    const slow = drawnBySoftware();
+    this.renderer = new WebGLRenderer({ canvas, antialias: !slow, powerPreference: 'high-performance' });
+    this.renderer.toneMapping = NeutralToneMapping;
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.autoUpdate = false;
+    this.quality = new AdaptiveQuality(slow ? SLOW_START : 0);
+    this.floor = new Floor(this.scene);
+    this.sky = new Sky(this.scene);
+    this.lights = new Lights(this.scene);
+    this.brush = new Brush(this.scene);
+    this.tags = new Tags(this.scene);
+    this.eye = new Eye(canvas, () => (this.viewChanged = true));
+    this.pulse = new Pulse((seconds, sinceDrawn) => this.tick(seconds, sinceDrawn));
+    this.setOptions({});
+    this.resized = new ResizeObserver(() => this.resize());
+    this.resized.observe(canvas);
+    this.resize();
+    canvas.addEventListener('pointerdown', this.onDown);
+    canvas.addEventListener('pointerup', this.onUp);
+    this.pulse.start();
   }
-  setView(_view: ViewState): void {}
-  screenshot(): Promise<Blob> {
-    return new Promise((resolve, reject) =>
-      this.canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('no picture')))),
+
+  /** Whom the stage knows. Those who were there before keep where they were last and their trails. */
+  setSubjects(subjects: Subject[]): void {
+    const before = this.performers;
+    this.performers = new Map(
+      subjects.map((subject) => {
+        const old = before.get(subject.id);
+        const same = old && JSON.stringify(old.subject) === JSON.stringify(subject);
+        return [subject.id, same ? old : new Performer(subject)];
+      }),
     );
+    for (const [id, record] of this.waiting) this.performers.get(id)?.take(record);
+    this.posesChanged = true;
   }
+
+  /** Takes the newest samples; subjects without one stay as they are. */
+  update(records: SubjectRecord[]): void {
+    for (const record of records) {
+      this.waiting.set(record.id, record);
+      this.performers.get(record.id)?.take(record);
+    }
+    this.posesChanged = true;
+  }
+
+  setOptions(options: Partial<StageOptions>): void {
+    this.options = { ...this.options, ...options };
+    this.look = LOOKS[this.options.theme];
+    this.renderer.setClearColor(this.look.horizon);
+    this.renderer.toneMappingExposure = this.look.exposure;
+    for (const part of [this.floor, this.sky, this.lights]) part.wear(this.look);
+    this.posesChanged = true;
+  }
+
+  /** Goes along with a performer from now on, or with none. */
+  follow(id: number | null): void {
+    this.followed = id;
+    this.eye.chosen = true;
+    this.eye.follow(this.goal());
+  }
+
+  /** Looks at whom it follows, or else at all, from a side. */
+  preset(preset: Preset): void {
+    this.eye.chosen = true;
+    const goal = this.goal();
+    this.eye.look(preset, this.box(goal ? this.followed : null));
+    if (goal) this.eye.keepAlong(goal);
+  }
+
+  view(): ViewState {
+    return { ...this.eye.view(), follow: this.followed };
+  }
+
+  setView(view: ViewState): void {
+    this.eye.setView(view);
+    this.followed = view.follow;
+    const goal = this.goal();
+    if (goal) this.eye.keepAlong(goal);
+    this.viewChanged = true;
+  }
+
+  /** What is seen now, as PNG. */
+  async screenshot(): Promise<Blob> {
+    this.posesChanged = true;
+    this.render();
+    return new Promise((resolve, reject) => {
+      // Taken in the same task as drawn: a browser may clear the canvas after it.
+      this.canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('the browser made no picture'))), 'image/png');
+    });
+  }
+
   stats(): StageStats {
-    return { fps: 0, positions: () => new Float32Array() };
+    const { calls, triangles } = this.renderer.info.render;
+    const positions = (id: number) => this.performers.get(id)?.pose.position.slice() ?? new Float32Array();
+    return { fps: this.pulse.fps(), quality: this.quality.step, calls, triangles, positions };
   }
-  dispose(): void {}
+
+  dispose(): void {
+    this.pulse.stop();
+    this.resized.disconnect();
+    this.canvas.removeEventListener('pointerdown', this.onDown);
+    this.canvas.removeEventListener('pointerup', this.onUp);
+    for (const part of [this.eye, this.brush, this.floor, this.sky, this.lights, this.tags, this.renderer]) part.dispose();
+  }
+
+  /** One frame of the screen; true when something was drawn. */
+  private tick(seconds: number, sinceDrawn: number | null): boolean {
+    if (sinceDrawn !== null && this.quality.frame(sinceDrawn)) this.resize();
+    this.frameEverybody();
+    if (this.eye.update(seconds, this.goal())) this.viewChanged = true;
+    if (!this.posesChanged && !this.viewChanged) return false;
+    this.render();
+    return true;
+  }
+
+  private render(): void {
+    if (this.posesChanged) this.drawPerformers();
+    this.tags.place(this.eye.camera, this.size.height);
+    this.sky.surround(this.eye.camera.position);
+    this.renderer.render(this.scene, this.eye.camera);
+    this.posesChanged = this.viewChanged = false;
+  }
+
+  private drawPerformers(): void {
+    const shown = this.shown();
+    this.attend();
+    this.brush.begin();
+    const soft = this.look.shadow * (QUALITY[this.quality.step]?.shadows ? 0.42 : 0.85);
+    for (const performer of shown) draw(performer, this.brush, this.look, this.options, soft);
+    this.brush.end();
+    this.tags.write(this.options.names ? shown : [], this.look);
+    this.renderer.shadowMap.needsUpdate = true;
+  }
+
+  /** Light and the clear part of the floor go where there is something to see. */
+  private attend(): void {
+    const box = this.box(this.goal() ? this.followed : null);
+    const centre = box.getCenter(new Vector3());
+    const radius = Math.hypot(box.max.x - box.min.x, box.max.y - box.min.y) / 2;
+    this.lights.attend(centre, radius);
+    const all = this.box(null);
+    this.floor.attend(all.getCenter(new Vector3()), all.getSize(new Vector3()).setZ(0).length() / 2);
+  }
+
+  /** Until somebody chooses a view, everyone is in the picture: at once at first, then whenever there are more. */
+  private frameEverybody(): void {
+    const seen = this.shown().filter((performer) => performer.centre() !== null).length;
+    if (this.eye.chosen || seen === 0 || this.framedAt === seen) return;
+    this.eye.look('free', this.box(null), this.framedAt === null);
+    this.framedAt = seen;
+    this.viewChanged = true;
+  }
+
+  private shown(): Performer[] {
+    return [...this.performers.values()].filter(({ subject }) => !this.options.hidden.has(subject.id));
+  }
+
+  /** What holds one subject or all that are shown; a person's room at the origin when there are none. */
+  private box(id: number | null): Box3 {
+    const box = new Box3();
+    const one = id === null ? undefined : this.performers.get(id);
+    for (const performer of one ? [one] : this.shown()) performer.grow(box);
+    if (box.isEmpty()) return new Box3(new Vector3(-0.8, -0.8, 0), new Vector3(0.8, 0.8, 1.75));
+    box.min.z = Math.min(box.min.z, 0);
+    return box;
+  }
+
+  private goal(): Vector3 | null {
+    return this.followed === null ? null : (this.performers.get(this.followed)?.centre() ?? null);
+  }
+
+  private resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const step = QUALITY[this.quality.step];
+    if (width === 0 || height === 0 || !step) return;
+    this.size = { width, height };
+    const ratio = Math.min(window.devicePixelRatio, step.pixelRatio);
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(width, height, false);
+    this.brush.resize(width, height);
+    this.eye.resize(width, height);
+    this.lights.shadows = step.shadows;
+    this.posesChanged = true;
+    // A canvas of a new size is empty until it is drawn.
+    this.render();
+  }
+
+  private readonly onDown = (event: PointerEvent): void => {
+    this.pressed = event.isPrimary ? { x: event.clientX, y: event.clientY } : null;
+  };
+
+  private readonly onUp = (event: PointerEvent): void => {
+    const from = this.pressed;
+    this.pressed = null;
+    if (!from || Math.hypot(event.clientX - from.x, event.clientY - from.y) > 5) return;
+    this.onSelect?.(this.under(event));
+  };
+
+  private under(event: PointerEvent): number | null {
+    const frame = this.canvas.getBoundingClientRect();
+    const x = ((event.clientX - frame.left) / frame.width) * 2 - 1;
+    const y = 1 - ((event.clientY - frame.top) / frame.height) * 2;
+    const caster = new Raycaster();
+    caster.setFromCamera(new Vector2(x, y), this.eye.camera);
+    const bodies = this.shown().map(({ subject, pose }) => ({
+      id: subject.id,
+      points: pickPoints(pose.position, subject.segments.map((segment) => segment.parent)),
+    }));
+    return pick(caster.ray, bodies);
+  }
 }
+
+/** The step of quality that a machine without a graphics card begins with. */
+const SLOW_START = 2;
