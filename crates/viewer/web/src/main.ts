@@ -1,4 +1,9 @@
-import { Stage } from './stage';
+/** The page: puts its parts together, and keeps them at what is known now. */
 
-const canvas = document.querySelector<HTMLCanvasElement>('#stage-canvas');
-if (canvas) new Stage(canvas);
+import 'uplot/dist/uPlot.min.css';
+import './style.css';
+import { App } from './app';
+
+const app = new App();
+// What tests and the console of the browser look at.
+Object.assign(window, { posewire: app });

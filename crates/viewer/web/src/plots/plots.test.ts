@@ -1,0 +1,80 @@
+import { describe, expect, it } from 'vitest';
+import { channelKey, findChannel, search, suggestions, title } from './channels';
+import { Rolling } from './rolling';
+import { table, valueAt } from './table';
+import type { Subject } from '../protocol/types';
+
+const subjects = [
+  {
+    id: 0,
+    name: 'Ada',
+    channels: [
+      { section: 'position', entries: ['Pelvis', 'Head'], axes: ['x', 'y', 'z'], unit: 'm' },
+      { section: 'joint_angles', entries: ['jRightKnee', 'jLeftKnee'], axes: ['x', 'y', 'z'], unit: 'deg' },
+    ],
+  },
+  { id: 1, name: 'Bea', channels: [{ section: 'position', entries: ['Pelvis'], axes: ['x', 'y', 'z'], unit: 'm' }] },
+] as unknown as Subject[];
+
+describe('channels', () => {
+  it('are found by words of their name, their subject and what their axis is called', () => {
+    const names = (text: string) => search(subjects, text, 20).map(channelKey);
+    expect(names('knee flexion')).toEqual(['0:joint_angles/jRightKnee/z', '0:joint_angles/jLeftKnee/z']);
+    expect(names('bea PELVIS y')).toEqual(['1:position/Pelvis/y']);
+    expect(names('joint_angles left abduction')).toEqual(['0:joint_angles/jLeftKnee/x']);
+    expect(search(subjects, '', 4)).toHaveLength(4);
+  });
+
+  it('are found again by their key, and suggested', () => {
+    const knee = findChannel(subjects, '0:joint_angles/jRightKnee/z')!;
+    expect([knee.unit, title(knee)]).toEqual(['deg', 'jRightKnee flexion']);
+    expect(findChannel(subjects, '7:position/Pelvis/x')).toBeUndefined();
+    expect(suggestions(subjects).map(channelKey)).toEqual([
+      '0:position/Pelvis/z',
+      '0:joint_angles/jRightKnee/z',
+      '0:joint_angles/jLeftKnee/z',
+      '1:position/Pelvis/z',
+    ]);
+  });
+});
+
+describe('a rolling window', () => {
+  it('keeps the last seconds, however many samples come', () => {
+    const rolling = new Rolling(2);
+    for (let sample = 0; sample < 5000; sample += 5) {
+      const times = Float64Array.from({ length: 5 }, (_, place) => (sample + place) / 240);
+      rolling.push(times, Float32Array.from(times, (time) => time * 2));
+    }
+    expect(rolling.times()).toHaveLength(481);
+    expect(rolling.times()[480]).toBe(4999 / 240);
+    expect(rolling.values()[0]).toBeCloseTo((4519 / 240) * 2, 4);
+  });
+
+  it('begins anew when time goes back', () => {
+    const rolling = new Rolling(2);
+    rolling.push(Float64Array.of(100, 101), Float32Array.of(1, 2));
+    rolling.push(Float64Array.of(0, 0.5), Float32Array.of(3, 4));
+    expect([...rolling.values()]).toEqual([3, 4]);
+  });
+});
+
+describe('a table', () => {
+  const a = { time: Float64Array.of(0, 1, 2), value: Float32Array.of(5, NaN, 7) };
+  const b = { time: Float64Array.of(0.5, 1), value: Float32Array.of(8, 9) };
+
+  it('shares times that are the same, with holes for what is unknown', () => {
+    expect(table([a, { ...a, time: a.time.slice() }])).toEqual([a.time, [5, null, 7], [5, null, 7]]);
+  });
+
+  it('joins times that differ', () => {
+    const [times, first, second] = table([a, b]);
+    expect(times).toEqual([0, 0.5, 1, 2]);
+    expect([first![1], second![0], second![2]]).toEqual([undefined, undefined, 9]);
+    expect(first![2]).toBeNull();
+  });
+
+  it('knows the value at a time', () => {
+    expect([-1, 0, 0.9, 2, 9].map((time) => valueAt(a, time))).toEqual([null, 5, 5, 7, 7]);
+    expect(valueAt(a, 1.5)).toBeNull();
+  });
+});
