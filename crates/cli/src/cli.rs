@@ -23,7 +23,7 @@ pub(crate) use monitor::Monitor;
 pub(crate) use record::Record;
 pub(crate) use replay::Replay;
 pub(crate) use stream::{Playback, Revision, Stream};
-pub(crate) use view::{Page, View};
+pub(crate) use view::View;
 
 use clap::{Parser, Subcommand};
 

@@ -1,6 +1,7 @@
 //! The arguments of `posewire record`.
 
 use super::value::seconds;
+use super::view::Beside;
 use clap::Args;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -36,6 +37,9 @@ pub(crate) struct Record {
     /// Replace the file if it is there.
     #[arg(long)]
     pub(crate) overwrite: bool,
+
+    #[command(flatten)]
+    pub(crate) beside: Beside,
 
     /// Print JSON: one object a second, and one at the end.
     #[arg(long)]

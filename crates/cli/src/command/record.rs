@@ -1,6 +1,8 @@
 //! `posewire record`: every datagram of live sources, and the poses in them, into a file.
 
 use super::End;
+use super::monitor::endpoints_of;
+use crate::browser::Browser;
 use crate::cli::Record;
 use crate::context::{self, Teller, end_progress, say, show_progress, shows_progress};
 use crate::error::Usage;
@@ -9,14 +11,14 @@ use posewire::endpoint::Endpoint;
 use posewire::sink::{RecordOptions, RecordProgress, RecordSink};
 use posewire::source::PlaybackOptions;
 use posewire::stop::Stop;
-use posewire::{Outcome, Session, Source};
+use posewire::{Outcome, Session, Sink, Source};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 pub(super) fn run(arguments: &Record) -> anyhow::Result<End> {
     let stop = context::stop_on_interrupt()?;
     let sources = open(&arguments.urls)?;
-    let endpoints: Vec<_> = sources.iter().map(|source| source.endpoint().clone()).collect();
+    let endpoints = endpoints_of(&sources);
     let options = RecordOptions {
         split: arguments.split_size.map(|megabytes| megabytes * MEGABYTE),
         overwrite: arguments.overwrite,
@@ -27,8 +29,11 @@ pub(super) fn run(arguments: &Record) -> anyhow::Result<End> {
         say(format_args!("recording {endpoint}"));
     }
     say(format_args!("  into {}", arguments.output.display()));
+    let browser = Browser::beside(arguments.beside.view, &endpoints)?;
     context::stop_after(&stop, arguments.duration);
-    let session = Session::start(sources, vec![Box::new(sink), Box::new(Teller::default())], stop.clone());
+    let mut sinks: Vec<Box<dyn Sink>> = vec![Box::new(sink), Box::new(Teller::default())];
+    sinks.extend(browser.as_ref().map(Browser::sink));
+    let session = Session::start(sources, sinks, stop.clone());
     let begun = Instant::now();
     watch(&session, &progress, arguments.json, &stop)?;
     let outcome = session.wait();

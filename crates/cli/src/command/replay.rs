@@ -1,5 +1,7 @@
 //! `posewire replay`: the datagrams of a capture sent again.
 
+mod shown;
+
 use super::End;
 use crate::cli::Replay;
 use crate::context::{self, end_progress, say, show_progress};
@@ -10,6 +12,7 @@ use posewire::endpoint::Endpoint;
 use posewire::faults::FaultPlan;
 use posewire::replay::{self, ReplayOptions, Replayed};
 use posewire::stop::Stop;
+use shown::Shown;
 use std::fmt::Write;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
@@ -30,7 +33,9 @@ pub(super) fn run(arguments: &Replay) -> anyhow::Result<End> {
         replay.wait_until_ready(&stop);
     }
     context::stop_after(&stop, arguments.duration);
+    let shown = Shown::begin(arguments, &stop)?;
     let replayed = run_and_show(replay, &stop);
+    shown.map_or(Ok(()), Shown::end)?;
     end_progress();
     let replayed = replayed?;
     if let Some(damage) = &replayed.damage {

@@ -6,6 +6,8 @@ mod sinks;
 mod types;
 
 use super::End;
+use super::monitor::endpoints_of;
+use crate::browser::Browser;
 use crate::cli::{Playback, Stream};
 use crate::context::{self, Teller, end_progress, say, show_progress};
 use crate::{json, render};
@@ -45,6 +47,7 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
     if let Some(plan) = &plan {
         say(format_args!("faults on purpose: {plan}"));
     }
+    let browser = Browser::beside(arguments.beside.view, &endpoints_of(&sources))?;
     let mut peers = Peers::of(&progress.read());
     if !is_live && !arguments.no_wait && !sinks.is_ready() {
         say("waiting for somebody to connect");
@@ -53,6 +56,7 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
     let teller = Teller::default();
     let mut boxes = sinks.into_boxes();
     boxes.push(Box::new(teller.clone()));
+    boxes.extend(browser.as_ref().map(Browser::sink));
     let session = Session::start(sources, boxes, stop.clone());
     while !stop.wait(Duration::from_millis(200)) && session.is_running() {
         let progress = progress.read();

@@ -3,9 +3,8 @@
 use crate::context::{Teller, end_progress, say, show_progress};
 use crate::error::Failure;
 use crate::plain::plural;
-use posewire::capture::{CaptureOptions, Survey};
 use posewire::endpoint::Endpoint;
-use posewire::file::{Progress, ReadOptions, read};
+use posewire::file::{Progress, ReadOptions, Recording, read};
 use posewire::sink::TakeSink;
 use posewire::source::PlaybackOptions;
 use posewire::stop::Stop;
@@ -52,16 +51,11 @@ fn read_take(path: &Path) -> anyhow::Result<Take> {
 
 /// The takes of every source of a capture, which is read as fast as it can be.
 fn play(path: &Path, endpoint: &Endpoint, stop: &Stop) -> anyhow::Result<Vec<Take>> {
-    let survey = Survey::of(path, &CaptureOptions::default())?;
-    let mut takes = Vec::new();
-    for source in &survey.sources {
-        let options = PlaybackOptions {
-            speed: AT_ONCE,
-            only: Some(source.number.to_string()),
-            ..PlaybackOptions::default()
-        };
-        takes.extend(play_source(Source::open(endpoint, &options)?, path, stop)?);
-    }
+    let options = PlaybackOptions {
+        speed: AT_ONCE,
+        ..PlaybackOptions::default()
+    };
+    let takes = play_sources(Source::open_all(endpoint, &options)?, path, stop)?;
     if takes.is_empty() {
         return Err(Failure {
             problem: format!("{}: expected poses, found none", path.display()),
@@ -72,11 +66,11 @@ fn play(path: &Path, endpoint: &Endpoint, stop: &Stop) -> anyhow::Result<Vec<Tak
     Ok(takes)
 }
 
-fn play_source(source: Source, path: &Path, stop: &Stop) -> anyhow::Result<Vec<Take>> {
+fn play_sources(sources: Vec<Source>, path: &Path, stop: &Stop) -> anyhow::Result<Vec<Take>> {
     let takes = TakeSink::default();
     let sinks: Vec<Box<dyn Sink>> = vec![Box::new(takes.clone()), Box::new(Teller::default())];
     let reading = Stop::new();
-    let session = Session::start([source], sinks, reading.clone());
+    let session = Session::start(sources, sinks, reading.clone());
     while session.is_running() {
         if stop.wait(LOOK_EVERY) {
             reading.stop();
@@ -87,7 +81,9 @@ fn play_source(source: Source, path: &Path, stop: &Stop) -> anyhow::Result<Vec<T
     }
     session.wait()?;
     end_progress();
-    Ok(takes.take())
+    // Samples that came late stand where they belong.
+    let takes = takes.take().into_iter();
+    Ok(takes.map(|take| Recording::from(take).take).collect())
 }
 
 /// As fast as it can be read.
