@@ -1,6 +1,7 @@
 /** One chart: channels of one unit over time, with a cursor, zoom and, of takes, the playhead. */
 
 import uPlot from 'uplot';
+import { roundStep } from '../transport/track';
 import { niceRange } from './range';
 import type { Table } from './table';
 
@@ -14,6 +15,8 @@ export interface ChartOptions {
   lines: ChartLine[];
   /** A time as it stands under the chart. */
   time: (seconds: number) => string;
+  /** The time that labels count from: they stand at round distances from it. */
+  origin: () => number;
   /** The pointer is at this time, or has left. */
   hover: (seconds: number | null) => void;
   /** This time was clicked. */
@@ -83,8 +86,13 @@ export class Chart {
       },
       scales: { x: { time: false }, y: { range: (_, low, high) => niceRange(low, high) } },
       axes: [
-        { ...axis, size: 26, space: 70, values: (_, splits) => splits.map(this.options.time) },
-        { ...axis, size: 48, space: 28 },
+        {
+          ...axis,
+          size: 26,
+          splits: (plot, _axis, min, max) => splits(min, max, this.options.origin(), plot.over.clientWidth / 70),
+          values: (_, times) => times.map(this.options.time),
+        },
+        { ...axis, size: 48, space: 24 },
       ],
       series: [{}, ...this.options.lines.map(series)],
       hooks: {
@@ -126,6 +134,14 @@ export class Chart {
 
 function series({ label, color }: ChartLine): uPlot.Series {
   return { label, stroke: color, width: 1.75, points: { show: false }, spanGaps: false };
+}
+
+/** Round times between two, as seen from an origin. */
+function splits(min: number, max: number, origin: number, labels: number): number[] {
+  const step = roundStep(max - min, labels);
+  const first = Math.ceil((min - origin) / step - 1e-6);
+  const count = Math.max(Math.floor((max - origin) / step + 1e-6) - first + 1, 0);
+  return Array.from({ length: count }, (_, place) => origin + (first + place) * step);
 }
 
 function cursorTime(plot: uPlot): number | null {

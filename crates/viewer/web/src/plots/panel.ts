@@ -141,6 +141,7 @@ export class PlotPanel {
       unit,
       lines,
       time: (seconds) => this.timeText(seconds),
+      origin: () => this.source.span()?.from ?? this.newest(),
       hover: (seconds) => (this.hover = seconds),
       pick: (seconds) => this.source.seek(seconds),
       zoom: (span) => this.zoom(span),
@@ -183,9 +184,11 @@ export class PlotPanel {
 
   private timeText(seconds: number): string {
     const span = this.source.span();
-    if (span) return clock(seconds - span.from, Math.abs(span.to - span.from) < 5 ? 1 : 0);
+    const { min, max } = this.zoomed ?? this.window();
+    const digits = max - min < 0.5 ? 2 : max - min < 5 ? 1 : 0;
+    if (span) return clock(seconds - span.from, digits);
     const ago = seconds - this.newest();
-    return ago > -0.05 ? 'now' : `${ago.toFixed(this.zoomed ? 1 : 0)} s`;
+    return Math.abs(ago) < 0.005 ? 'now' : `${ago.toFixed(digits)} s`;
   }
 
   private showValues(): void {
@@ -205,7 +208,8 @@ export function traceColor(style: CSSStyleDeclaration, trace: Trace): string {
 function valueText(value: number | null, unit: string): string {
   if (value === null) return '–';
   const digits = Math.abs(value) >= 100 ? 1 : unit === 'deg' ? 2 : 3;
-  return `${value.toFixed(digits)} ${UNITS[unit] ?? unit}`.trim();
+  const name = UNITS[unit] ?? ` ${unit}`;
+  return `${value.toFixed(digits)}${unit === '' ? '' : name}`;
 }
 
 function button(name: 'pause' | 'reset' | 'remove', label: string, onclick: () => void): HTMLButtonElement {
@@ -213,4 +217,4 @@ function button(name: 'pause' | 'reset' | 'remove', label: string, onclick: () =
 }
 
 const COLORS = 8;
-const UNITS: Record<string, string> = { deg: '°', 'm/s2': 'm/s²', 'rad/s2': 'rad/s²', 'deg/s2': '°/s²', 'deg/s': '°/s' };
+const UNITS: Record<string, string> = { deg: '°', 'deg/s': '°/s', 'deg/s2': '°/s²', 'm/s2': ' m/s²', 'rad/s2': ' rad/s²' };

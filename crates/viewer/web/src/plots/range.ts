@@ -3,7 +3,7 @@
 export function niceRange(low: number | null, high: number | null): [number, number] {
   if (low === null || high === null || !Number.isFinite(low) || !Number.isFinite(high)) return [0, 1];
   // A value that does not move is a line in the middle, at a scale that shows it is still.
-  const size = Math.max(high - low, Math.abs(high) * 1e-3, 1e-3);
+  const size = Math.max(high - low, Math.abs(high) * 1e-3, 0.01);
   const step = niceStep(size / 4);
   const from = Math.floor((low - size * 0.04) / step) * step;
   const to = Math.ceil((high + size * 0.04) / step) * step;

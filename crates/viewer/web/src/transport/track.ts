@@ -63,7 +63,7 @@ function drawMarker(context: CanvasRenderingContext2D, x: number, lane: Lane): v
 
 function drawScale(context: CanvasRenderingContext2D, span: Span, width: number, height: number, color: string): void {
   const length = span.to - span.from;
-  const step = niceStep(length, width / 80);
+  const step = roundStep(length, width / 80);
   context.fillStyle = color;
   context.font = '11px system-ui, sans-serif';
   for (let time = 0; step > 0 && time <= length + 1e-9; time += step) {
@@ -77,7 +77,7 @@ function drawScale(context: CanvasRenderingContext2D, span: Span, width: number,
 }
 
 /** Seconds between labels: 1, 2 or 5 of a power of ten below a minute, then what a clock has. */
-export function niceStep(length: number, labels: number): number {
+export function roundStep(length: number, labels: number): number {
   const wanted = length / Math.max(labels, 1);
   return STEPS.find((step) => step >= wanted) ?? Math.ceil(wanted / 3600) * 3600;
 }
@@ -97,4 +97,4 @@ function fit(canvas: HTMLCanvasElement): { width: number; height: number } {
 
 /** The height of the labels under the lanes. */
 const SCALE = 17;
-const STEPS = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600];
+const STEPS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600];

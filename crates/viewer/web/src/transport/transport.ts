@@ -95,7 +95,7 @@ function rangeButtons(player: Player): Control {
     clear.disabled = playhead.range === null;
     setAttribute(repeat, 'aria-pressed', String(playhead.repeat));
   };
-  const element = h('div', { class: 'group', role: 'group', 'aria-label': 'Range' }, from, to, clear, repeat);
+  const element = h('div', { class: 'group range-buttons', role: 'group', 'aria-label': 'Range' }, from, to, clear, repeat);
   return { element, refresh };
 }
 
