@@ -121,6 +121,8 @@ fn list(folder: &Path) -> io::Result<String> {
             .unwrap_or(&file)
             .to_string_lossy()
             .replace('\\', "/");
+        // A path with a quote in it is still one string.
+        let file = file.to_string_lossy();
         let _ = writeln!(list, "    ({name:?}, include_bytes!({file:?})),");
     }
     Ok(list + "];\n")

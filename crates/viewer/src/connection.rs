@@ -20,7 +20,7 @@ pub(crate) const MOST_CONNECTIONS: usize = 64;
 /// Serves connections until `stop` is set.
 pub(crate) async fn serve(listener: TcpListener, router: Router, counts: Arc<Counts>, mut stop: watch::Receiver<bool>) {
     let room = Arc::new(Semaphore::new(MOST_CONNECTIONS));
-    let refusing = Arc::new(Semaphore::new(MOST_CONNECTIONS));
+    let refusing = Arc::new(Semaphore::new(MOST_REFUSALS));
     loop {
         let accepted = tokio::select! {
             accepted = listener.accept() => accepted,
@@ -69,10 +69,10 @@ fn prepare(stream: &TcpStream) {
     let _ = socket.set_tcp_user_timeout(Some(Duration::from_secs(30)));
 }
 
-/// Says that there is no room. What was asked is read first: bytes that nobody has read would take the answer with them.
+/// Says that there is no room. What is asked is read to its end: bytes that nobody has read would take the answer with
+/// them.
 async fn refuse(mut stream: TcpStream) -> std::io::Result<()> {
     let mut asked = [0; 4096];
-    let _ = stream.read(&mut asked).await?;
     stream.write_all(NO_ROOM).await?;
     stream.shutdown().await?;
     while stream.read(&mut asked).await? > 0 {}
@@ -82,6 +82,8 @@ async fn refuse(mut stream: TcpStream) -> std::io::Result<()> {
 const NO_ROOM: &[u8] = b"HTTP/1.1 503 Service Unavailable\r\nconnection: close\r\nretry-after: 5\r\n\
     content-type: application/json\r\ncontent-length: 76\r\n\r\n\
     {\"error\":\"as many connections are open as can be\",\"help\":\"close some pages\"}";
+/// The most connections that are being told so at a time; those beyond are closed without a word.
+const MOST_REFUSALS: usize = 256;
 const SEND_BUFFER: usize = 128 * 1024;
 /// The most bytes of a request's head.
 const MOST_HEAD: usize = 16 * 1024;

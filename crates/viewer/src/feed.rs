@@ -74,11 +74,6 @@ impl Feed {
         }
     }
 
-    /// The sources as endpoints.
-    pub(crate) fn sources(&self) -> &[String] {
-        &self.sources
-    }
-
     /// Takes what a source brings.
     pub(crate) fn take(&self, source: SourceId, item: &Item) {
         let mut newest = self.lock();

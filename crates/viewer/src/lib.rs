@@ -13,7 +13,8 @@
 //! let options = PlaybackOptions { duration: Some(Duration::from_millis(50)), ..PlaybackOptions::default() };
 //! let source = Source::open(&"synthetic:walk?people=2".parse()?, &options)?;
 //! let feed = Feed::new(&[source.endpoint().clone()]);
-//! let server = Server::start(Content::Live(feed.clone()), &Options { listen: "127.0.0.1:0".parse()? })?;
+//! let options = Options { listen: "127.0.0.1:0".parse()?, ..Options::default() };
+//! let server = Server::start(Content::Live(feed.clone()), &options)?;
 //! println!("open http://{}", server.address());
 //!
 //! Session::start([source], vec![Box::new(ViewerSink::new(&feed))], Stop::new()).wait()?;

@@ -26,6 +26,8 @@ pub struct Options {
     /// Where it listens. Any address but a loopback one makes every page need a token; port 0 is one of the system's
     /// choice.
     pub listen: SocketAddr,
+    /// Whether pages of this machine need a token too, as where several people share it.
+    pub token: bool,
 }
 
 impl Default for Options {
@@ -33,6 +35,7 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             listen: SocketAddr::from((Ipv4Addr::LOCALHOST, 9780)),
+            token: false,
         }
     }
 }
@@ -57,11 +60,8 @@ impl Server {
         let listener = TcpListener::bind(options.listen).map_err(failed)?;
         listener.set_nonblocking(true).map_err(failed)?;
         let address = listener.local_addr().map_err(failed)?;
-        let token = if address.ip().is_loopback() {
-            None
-        } else {
-            Some(Token::new()?)
-        };
+        let needs_token = options.token || !address.ip().is_loopback();
+        let token = needs_token.then(Token::new).transpose()?;
         let (stop, stopped) = watch::channel(false);
         let app = Arc::new(App {
             content,

@@ -13,7 +13,7 @@ use std::sync::Arc;
 /// timecodes where all say, and else beginning together.
 #[derive(Clone, Debug, Default)]
 pub struct Takes {
-    takes: Arc<[Take]>,
+    all: Arc<[Take]>,
     files: Arc<[String]>,
     subjects: Arc<[SubjectRecord]>,
     records: Arc<[TakeRecord]>,
@@ -36,13 +36,13 @@ impl Takes {
             subjects: subjects.collect(),
             records: records.collect(),
             files: named_once(&files),
-            takes: takes.into(),
+            all: takes.into(),
         }
     }
 
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
-        self.takes.is_empty()
+        self.all.is_empty()
     }
 
     /// The scene as JSON; as a message of the socket, it says so.
@@ -92,10 +92,10 @@ impl Takes {
     }
 
     fn take(&self, take: u32) -> Result<&Take> {
-        let found = self.takes.get(take as usize);
+        let found = self.all.get(take as usize);
         found.ok_or(Error::NoTake {
             found: take,
-            takes: self.takes.len(),
+            takes: self.all.len(),
         })
     }
 }

@@ -53,7 +53,7 @@ mod tests {
     fn a_token_is_itself_and_nothing_else() {
         let token = Token::new().unwrap();
         assert_eq!(token.digits().len(), 32);
-        assert!(token.is(&token.digits().to_owned()));
+        assert!(token.is(token.digits()));
         assert!(!token.is(""));
         assert!(!token.is(&token.digits()[..31]));
         assert!(!token.is(&format!("{}0", token.digits())));

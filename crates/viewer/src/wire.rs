@@ -203,3 +203,6 @@ fn write_quaternions(list: &[Option<DQuat>], count: usize, out: &mut Vec<u8>) {
 }
 
 const VERSION: u8 = 1;
+
+#[cfg(test)]
+mod tests;

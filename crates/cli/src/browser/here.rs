@@ -20,7 +20,15 @@ pub(crate) struct Browser {
 impl Browser {
     /// Serves what comes from these sources, if it is to be shown, and says where.
     pub(crate) fn beside(listen: Option<SocketAddr>, sources: &[Endpoint]) -> anyhow::Result<Option<Self>> {
-        let listen = listen.map(|listen| Self::live(&Options { listen }, sources));
+        let listen = listen.map(|listen| {
+            Self::live(
+                &Options {
+                    listen,
+                    ..Options::default()
+                },
+                sources,
+            )
+        });
         let browser = listen.transpose()?;
         browser.iter().for_each(Self::announce);
         Ok(browser)
@@ -33,7 +41,13 @@ impl Browser {
             listen: SocketAddr::new(options.listen.ip(), 0),
         };
         let browser = match listen {
-            Some(listen) => Self::live(&Options { listen }, sources)?,
+            Some(listen) => Self::live(
+                &Options {
+                    listen,
+                    ..Options::default()
+                },
+                sources,
+            )?,
             None => Self::live(&options, sources).or_else(|_| Self::live(&elsewhere, sources))?,
         };
         browser.announce();
