@@ -47,7 +47,7 @@ export class Brush {
   }
 }
 
-/** What bodies are made of: dull, with a lighter edge where the surface turns away. */
+/** What bodies are made of: dull. */
 function cloth(): Material {
   return new MeshStandardMaterial({ vertexColors: true, roughness: 0.62, metalness: 0 });
 }

@@ -1,6 +1,6 @@
-import { Box3, MathUtils, PerspectiveCamera, Spherical, Vector3 } from 'three';
+import { MathUtils, PerspectiveCamera, Spherical, Vector3 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { fitDistance } from './fit';
+import { bestDirection, fit } from './fit';
 import type { Preset, ViewState } from './options';
 
 /** The eye: orbit, pan and zoom by hand, views at a key's press, and going along with a performer. */
@@ -20,7 +20,7 @@ export class Eye {
     this.controls.enableDamping = !calm();
     this.controls.dampingFactor = 0.12;
     this.controls.minDistance = 0.35;
-    this.controls.maxDistance = 60;
+    this.controls.maxDistance = 160;
     this.controls.maxPolarAngle = MathUtils.degToRad(96);
     this.controls.zoomToCursor = true;
     this.controls.addEventListener('change', onChange);
@@ -55,11 +55,11 @@ export class Eye {
     this.along = goal.clone();
   }
 
-  /** Looks at what is in a box from a side. `sudden` leaves out the way there. */
-  look(preset: Preset, box: Box3, sudden = false): void {
-    const target = box.getCenter(new Vector3());
-    const direction = DIRECTIONS[preset];
-    const distance = fitDistance(box, direction, this.camera.fov, this.camera.aspect);
+  /** Looks at points from a side, so that all are seen. `sudden` leaves out the way there. */
+  look(preset: Preset, points: Vector3[], sudden = calm()): void {
+    const { fov, aspect } = this.camera;
+    const direction = preset === 'free' ? bestDirection(points, FREE, fov, aspect) : DIRECTIONS[preset];
+    const { target, distance } = fit(points, direction, fov, aspect);
     this.flyTo(target, target.clone().addScaledVector(direction, distance), sudden);
   }
 
@@ -131,12 +131,17 @@ interface Flight {
 const FLIGHT = 0.55;
 
 /** From what is looked at to the eye. From above, +X is up on the screen. */
-const DIRECTIONS: Record<Preset, Vector3> = {
+const DIRECTIONS: Record<Exclude<Preset, 'free'>, Vector3> = {
   front: new Vector3(1, 0, 0.16).normalize(),
   side: new Vector3(0, -1, 0.16).normalize(),
   top: new Vector3(-0.002, 0, 1).normalize(),
-  free: new Vector3(0.78, -0.62, 0.36).normalize(),
 };
+
+/** From ahead and a little above, the likeliest to please first. */
+const FREE = [-38, 38, 0, -62, 62, 90, -90].map((degrees) => {
+  const angle = MathUtils.degToRad(degrees);
+  return new Vector3(Math.cos(angle), Math.sin(angle), 0.3).normalize();
+});
 
 /** Whether whoever sits there asked the system for less motion. */
 function calm(): boolean {

@@ -78,8 +78,8 @@ function drawGround(performer: Performer, brush: Brush, look: Look, colors: Tone
     if (near > 0.02 && z > -0.3) brush.disks.add(x, y, 0.001, radius, look.shade, strength * near * near);
   }
   for (const { x, y, z } of contacts(performer)) {
-    brush.disks.add(x, y, z, 0.12, colors.accent, 0.75);
-    brush.disks.add(x, y, z, 0.085, colors.accent, 0.5, 'ring');
+    brush.disks.add(x, y, z, 0.13, colors.glow, 0.55);
+    brush.disks.add(x, y, z, 0.09, colors.glow, 0.5, 'ring');
   }
 }
 

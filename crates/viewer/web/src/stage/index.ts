@@ -116,7 +116,7 @@ export class Stage {
   preset(preset: Preset): void {
     this.eye.chosen = true;
     const goal = this.goal();
-    this.eye.look(preset, this.box(goal ? this.followed : null));
+    this.eye.look(preset, this.outline(goal ? this.followed : null));
     if (goal) this.eye.keepAlong(goal);
   }
 
@@ -187,19 +187,17 @@ export class Stage {
 
   /** Light and the clear part of the floor go where there is something to see. */
   private attend(): void {
-    const box = this.box(this.goal() ? this.followed : null);
-    const centre = box.getCenter(new Vector3());
-    const radius = Math.hypot(box.max.x - box.min.x, box.max.y - box.min.y) / 2;
-    this.lights.attend(centre, radius);
-    const all = this.box(null);
-    this.floor.attend(all.getCenter(new Vector3()), all.getSize(new Vector3()).setZ(0).length() / 2);
+    const all = around(this.outline(null));
+    this.floor.attend(all.centre, all.radius);
+    const one = this.goal() ? around(this.outline(this.followed)) : all;
+    this.lights.attend(one.centre, one.radius);
   }
 
   /** Until somebody chooses a view, everyone is in the picture: at once at first, then whenever there are more. */
   private frameEverybody(): void {
     const seen = this.shown().filter((performer) => performer.centre() !== null).length;
     if (this.eye.chosen || seen === 0 || this.framedAt === seen) return;
-    this.eye.look('free', this.box(null), this.framedAt === null);
+    this.eye.look('free', this.outline(null), this.framedAt === null || undefined);
     this.framedAt = seen;
     this.viewChanged = true;
   }
@@ -208,14 +206,11 @@ export class Stage {
     return [...this.performers.values()].filter(({ subject }) => !this.options.hidden.has(subject.id));
   }
 
-  /** What holds one subject or all that are shown; a person's room at the origin when there are none. */
-  private box(id: number | null): Box3 {
-    const box = new Box3();
+  /** Points around one subject or all that are shown; around a person's room at the origin when there are none. */
+  private outline(id: number | null): Vector3[] {
     const one = id === null ? undefined : this.performers.get(id);
-    for (const performer of one ? [one] : this.shown()) performer.grow(box);
-    if (box.isEmpty()) return new Box3(new Vector3(-0.8, -0.8, 0), new Vector3(0.8, 0.8, 1.75));
-    box.min.z = Math.min(box.min.z, 0);
-    return box;
+    const points = (one ? [one] : this.shown()).flatMap((performer) => performer.outline());
+    return points.length > 0 ? points : [new Vector3(-0.8, -0.8, 0), new Vector3(0.8, 0.8, 1.75)];
   }
 
   private goal(): Vector3 | null {
@@ -261,6 +256,12 @@ export class Stage {
     }));
     return pick(caster.ray, bodies);
   }
+}
+
+/** The middle of points, and how far they reach from it over the ground. */
+function around(points: Vector3[]): { centre: Vector3; radius: number } {
+  const box = new Box3().setFromPoints(points);
+  return { centre: box.getCenter(new Vector3()), radius: box.getSize(new Vector3()).setZ(0).length() / 2 };
 }
 
 /** The step of quality that a machine without a graphics card begins with. */

@@ -1,4 +1,4 @@
-import { type Box3, Color, Quaternion, Vector3 } from 'three';
+import { type Color, Quaternion, Vector3 } from 'three';
 import { Flag, State, type Subject, type SubjectRecord } from '../protocol/types';
 import { bodyParts } from './body';
 import { describedNullPose } from './body/null_pose';
@@ -73,13 +73,12 @@ export class Performer {
     return highest?.clone().add(new Vector3(0, 0, 0.16)) ?? null;
   }
 
-  /** Makes a box so large that it holds all of this. */
-  grow(box: Box3): void {
-    for (const at of this.shown()) {
-      box.expandByPoint(at);
-      // Bodies reach a little past their segments' origins.
-      box.expandByPoint(at.clone().add(new Vector3(0.12, 0.12, 0.12))).expandByPoint(at.sub(new Vector3(0.12, 0.12, 0.09)));
-    }
+  /** Points around all that is shown of it: bodies reach a little past their segments' origins. */
+  outline(): Vector3[] {
+    return this.shown().flatMap((at) => [
+      at.clone().add(new Vector3(0.12, 0.12, 0.14)),
+      at.clone().sub(new Vector3(0.12, 0.12, 0.09)),
+    ]);
   }
 
   /** What the tag says under the name. */

@@ -48,7 +48,7 @@ export class Tag {
     const pixel = (2 * Math.tan(MathUtils.degToRad(camera.fov / 2))) / Math.max(height, 1);
     const size = pixel * MathUtils.clamp(8 / away, 0.72, 1);
     this.sprite.scale.set(this.size.width * size, this.size.height * size, 1);
-    this.sprite.material.opacity = MathUtils.clamp(1.5 - away / 45, 0.3, 1);
+    this.sprite.material.opacity = MathUtils.clamp(1.3 - away / 60, 0.75, 1);
   }
 
   dispose(): void {

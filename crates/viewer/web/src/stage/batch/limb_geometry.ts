@@ -11,22 +11,23 @@ export interface Fineness {
 
 /**
  * The surface that every limb is an instance of. Its vertices are parameters, which the shader makes a surface of:
- * `position` is (how far along, sine of the cap's latitude, cosine of it), `around` the cosine and sine of the angle.
+ * `position` is (how far along, sine of the cap's latitude, cosine of it), `normal` the cosine and sine of the angle around.
  */
 export function limbGeometry({ sides, capRings, shaftRings }: Fineness): InstancedBufferGeometry {
   const rings = [...cap(capRings, -1), ...shaft(shaftRings), ...cap(capRings, 1)];
   const position: number[] = [];
-  const around: number[] = [];
+  const normal: number[] = [];
   for (const [along, latitude] of rings) {
     for (let side = 0; side <= sides; side += 1) {
       const angle = (2 * Math.PI * side) / sides;
       position.push(along, Math.sin(latitude), Math.cos(latitude));
-      around.push(Math.cos(angle), Math.sin(angle));
+      normal.push(Math.cos(angle), Math.sin(angle), 0);
     }
   }
   const geometry = new InstancedBufferGeometry();
   geometry.setAttribute('position', new Float32BufferAttribute(position, 3));
-  geometry.setAttribute('around', new Float32BufferAttribute(around, 2));
+  // By this name, or three takes the surface for one without normals and shades each triangle flat.
+  geometry.setAttribute('normal', new Float32BufferAttribute(normal, 3));
   geometry.setIndex(faces(rings.length, sides));
   return geometry;
 }

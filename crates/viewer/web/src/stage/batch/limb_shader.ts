@@ -17,7 +17,6 @@ export function drawLimbs<M extends Material>(material: M): M {
 }
 
 const DECLARATIONS = /* glsl */ `
-attribute vec2 around;
 attribute vec4 limbPlace;    // start x, y, z; length
 attribute vec4 limbTurn;     // quaternion x, y, z, w
 attribute vec4 limbSections; // start broad, start deep, end broad, end deep
@@ -33,6 +32,7 @@ vec3 turnedBy(vec4 turn, vec3 way) {
 const SURFACE = /* glsl */ `
 #define LIMB_SURFACE
 float along = position.x;
+vec2 around = normal.xy;
 float hump = 4.0 * along * (1.0 - along);
 float slope = 4.0 - 8.0 * along;
 vec2 radii = mix(limbSections.xy, limbSections.zw, along) + limbShape.x * hump;

@@ -75,22 +75,21 @@ function torso(body: Body): Part[] {
 }
 
 function hip(body: Body, pelvis: number, hips: number): Part {
-  const side = new Vector3(0, hips * 0.78, 0.012 * body.size);
-  return part(pelvis, side.clone().setY(-side.y), side, {
-    start: body.section(0.1, 0.098),
-    caps: [hips * 0.78 + 0.018 * body.size, hips * 0.78 + 0.018 * body.size],
-    bulge: 0.008 * body.size,
-    broad: UP,
-    tone: 'dark',
+  const joint = hips / (0.09 * body.size);
+  return part(pelvis, body.at(-0.004, 0, -0.005), body.at(-0.002, 0, 0.06), {
+    start: body.section(0.08 * joint + 0.074, 0.104),
+    end: body.section(0.151, 0.104),
+    caps: body.caps(0.09, 0.05),
+    tone: 'trousers',
   });
 }
 
 function waist(body: Body, pelvis: number, next: number): Part {
   return part(pelvis, body.at(0, 0, 0.03), body.way(pelvis, next), {
-    start: body.section(0.142, 0.1),
-    end: body.section(0.124, 0.092),
+    start: body.section(0.15, 0.104),
+    end: body.section(0.135, 0.098),
     caps: body.caps(0.04, 0.045),
-    tone: 'dark',
+    tone: 'trousers',
   });
 }
 
@@ -111,11 +110,11 @@ function vertebrae(body: Body, segment: number, next: number, last: boolean): Pa
 
 function ribs(body: Body, segment: number, neck: number): Part {
   const top = body.way(segment, neck);
-  return part(segment, top.clone().multiplyScalar(-0.12).add(body.at(0.008, 0, 0)), top.clone().multiplyScalar(0.62), {
-    start: body.section(0.146, 0.112),
-    end: body.section(0.142, 0.092),
-    caps: body.caps(0.07, 0.07),
-    bulge: 0.008 * body.size,
+  return part(segment, body.at(0.002, 0, 0), top.clone().multiplyScalar(0.62), {
+    start: body.section(0.143, 0.109),
+    end: body.section(0.157, 0.094),
+    caps: body.caps(0.05, 0.07),
+    bulge: 0.007 * body.size,
     tone: 'suit',
   });
 }
@@ -130,12 +129,12 @@ function profile(height: number): Section {
 }
 
 const PROFILE: Section[] = [
-  [0.155, 0.108],
-  [0.128, 0.094],
-  [0.122, 0.09],
-  [0.133, 0.1],
+  [0.15, 0.104],
+  [0.135, 0.098],
+  [0.128, 0.095],
+  [0.134, 0.101],
   [0.144, 0.11],
-  [0.09, 0.075],
+  [0.15, 0.104],
 ];
 
 function head(body: Body): Part[] {
@@ -144,23 +143,30 @@ function head(body: Body): Part[] {
   const size = top / 0.23;
   const at = (x: number, y: number, z: number) => new Vector3(x, y, z).multiplyScalar(size);
   return [
-    part(neck, body.at(-0.006, 0, -0.035), body.way(neck, skull).add(at(0.006, 0, 0.03)), {
-      start: body.section(0.066, 0.062),
-      end: body.section(0.05, 0.052),
-      caps: body.caps(0.03, 0.02),
+    part(neck, body.at(-0.014, 0, -0.05), body.way(neck, skull).multiplyScalar(0.45).add(body.at(-0.004, 0, 0)), {
+      start: body.section(0.135, 0.082),
+      end: body.section(0.063, 0.063),
+      caps: body.caps(0.03, 0.004),
+      bulge: -0.014 * body.size,
+    }),
+    part(neck, body.at(0, 0, 0), body.way(neck, skull).add(at(0.006, 0, 0.03)), {
+      start: body.section(0.058, 0.058),
+      end: body.section(0.055, 0.058),
+      caps: body.caps(0.02, 0.02),
       tone: 'skin',
     }),
-    part(skull, at(0.03, 0, 0.052), at(0, 0, 0.142), {
-      start: [0.05 * size, 0.064 * size],
-      end: [0.075 * size, 0.097 * size],
-      caps: [0.05 * size, 0.088 * size],
-      bulge: 0.007 * size,
+    part(skull, at(0.02, 0, 0.03), at(0.004, 0, 0.138), {
+      start: [0.054 * size, 0.08 * size],
+      end: [0.076 * size, 0.095 * size],
+      caps: [0.042 * size, 0.092 * size],
+      bulge: 0.008 * size,
       tone: 'skin',
     }),
-    part(skull, at(0.052, -0.036, 0.118), at(0.052, 0.036, 0.118), {
-      start: [0.03 * size, 0.05 * size],
-      caps: [0.03 * size, 0.03 * size],
-      bow: -0.012 * size,
+    part(skull, at(0.056, -0.056, 0.112), at(0.056, 0.056, 0.112), {
+      start: [0.017 * size, 0.02 * size],
+      caps: [0.014 * size, 0.014 * size],
+      bulge: 0.004 * size,
+      bow: 0.03 * size,
       broad: UP,
       tone: 'visor',
     }),
@@ -172,9 +178,9 @@ function arm(body: Body, side: Limbs): Part[] {
   const fore = body.way(side.foreArm, side.hand);
   const parts = [
     part(side.upperArm, upper.clone().multiplyScalar(0.03), upper, {
-      start: body.section(0.054, 0.053),
-      end: body.section(0.039, 0.039),
-      caps: body.caps(0.056, 0.039),
+      start: body.section(0.058, 0.057),
+      end: body.section(0.041, 0.041),
+      caps: body.caps(0.06, 0.041),
       bulge: 0.004 * body.size,
       broad: FORWARD,
     }),
@@ -193,9 +199,9 @@ function arm(body: Body, side: Limbs): Part[] {
 function shoulder(body: Body, segment: number, upperArm: number): Part {
   const way = body.way(segment, upperArm);
   return part(segment, way.clone().multiplyScalar(0.1), way.clone().multiplyScalar(0.96), {
-    start: body.section(0.072, 0.05),
-    end: body.section(0.058, 0.055),
-    caps: body.caps(0.05, 0.055),
+    start: body.section(0.08, 0.056),
+    end: body.section(0.06, 0.058),
+    caps: body.caps(0.05, 0.056),
     broad: FORWARD,
   });
 }
@@ -223,11 +229,12 @@ function leg(body: Body, side: Limbs): Part[] {
   const shin = body.way(side.lowerLeg, side.foot);
   return [
     part(side.upperLeg, thigh.clone().multiplyScalar(0.02), thigh, {
-      start: body.section(0.086, 0.09),
+      start: body.section(0.088, 0.092),
       end: body.section(0.055, 0.057),
-      caps: body.caps(0.085, 0.056),
+      caps: body.caps(0.088, 0.056),
       bulge: 0.008 * body.size,
       bow: 0.008 * body.size,
+      tone: 'trousers',
     }),
     part(side.lowerLeg, new Vector3(), shin, {
       start: body.section(0.052, 0.054),
@@ -235,6 +242,7 @@ function leg(body: Body, side: Limbs): Part[] {
       caps: body.caps(0.053, 0.036),
       bulge: 0.009 * body.size,
       bow: -0.014 * body.size,
+      tone: 'trousers',
     }),
     ...foot(body, side),
   ];
@@ -245,19 +253,19 @@ function foot(body: Body, side: Limbs): Part[] {
   const sole = ball.z - 0.02 * body.size;
   const heel = new Vector3(-0.022 * body.size, 0, sole + 0.042 * body.size);
   const parts = [
-    part(side.foot, heel, new Vector3(ball.x - 0.012 * body.size, ball.y, sole + 0.029 * body.size), {
-      start: body.section(0.035, 0.042),
-      end: body.section(0.046, 0.029),
+    part(side.foot, heel, new Vector3(ball.x - 0.012 * body.size, ball.y, sole + 0.032 * body.size), {
+      start: body.section(0.037, 0.042),
+      end: body.section(0.049, 0.032),
       caps: body.caps(0.034, 0.03),
       bulge: 0.002,
       bow: -0.012 * body.size,
-      tone: 'dark',
+      tone: 'shoe',
     }),
     // The ankle's front, which would be a notch between shin and instep.
     part(side.foot, body.at(0, 0, -0.005), new Vector3(ball.x * 0.5, 0, sole + 0.045 * body.size), {
       start: body.section(0.036, 0.038),
       end: body.section(0.036, 0.03),
-      tone: 'dark',
+      tone: 'shoe',
     }),
   ];
   if (side.toe !== null) parts.push(toe(body, side.toe));
@@ -266,11 +274,11 @@ function foot(body: Body, side: Limbs): Part[] {
 
 function toe(body: Body, segment: number): Part {
   const tip = body.point(segment, 'Toe') ?? body.at(0.07, 0, -0.01);
-  return part(segment, body.at(-0.004, 0, 0.004), new Vector3(tip.x - 0.028 * body.size, tip.y, -0.004 * body.size), {
-    start: body.section(0.046, 0.023),
-    end: body.section(0.04, 0.016),
+  return part(segment, body.at(-0.004, 0, 0.007), new Vector3(tip.x - 0.028 * body.size, tip.y, 0.001), {
+    start: body.section(0.049, 0.026),
+    end: body.section(0.043, 0.02),
     caps: body.caps(0.02, 0.03),
-    tone: 'dark',
+    tone: 'shoe',
   });
 }
 

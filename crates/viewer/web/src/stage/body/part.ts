@@ -1,7 +1,7 @@
 import { Matrix4, Quaternion, Vector3 } from 'three';
 
 /** What a part is made of, in the eye's terms. */
-export type Tone = 'suit' | 'dark' | 'skin' | 'visor' | 'object';
+export type Tone = 'suit' | 'trousers' | 'shoe' | 'skin' | 'visor' | 'object';
 
 /** Radii of an elliptical section in metres: across the broad axis and across the deep one. */
 export type Section = [broad: number, deep: number];

@@ -1,4 +1,5 @@
 import { CircleGeometry, Color, Mesh, MeshBasicMaterial, type Object3D, ShadowMaterial, Shape, ShapeGeometry, Vector2, type Vector3 } from 'three';
+import { displayed } from './displayed';
 import type { Look } from './theme';
 
 /** The ground at z = 0: lines in metres that fade out with the distance, shadows, and the red triangle that marks +X. */
@@ -29,10 +30,10 @@ export class Floor {
   /** Takes the colours of a theme. */
   wear(look: Look): void {
     const { ground, horizon, line, shade, strength } = this.uniforms;
-    ground.value.copy(look.floor);
-    horizon.value.copy(look.horizon);
-    line.value.copy(look.line);
-    shade.value.copy(look.shade);
+    ground.value.copy(look.floor).convertLinearToSRGB();
+    horizon.value.copy(look.horizon).convertLinearToSRGB();
+    line.value.copy(look.line).convertLinearToSRGB();
+    shade.value.copy(look.shade).convertLinearToSRGB();
     strength.value = look.shadow;
   }
 
@@ -61,7 +62,7 @@ export class Floor {
         .replace('void main() {', `${GRID}\nvoid main() {`)
         .replace(/gl_FragColor = vec4\( color.*\n/, 'gl_FragColor = vec4(paint(getShadowMask()), 1.0);\n');
     };
-    return material;
+    return displayed(material);
   }
 }
 
@@ -83,27 +84,24 @@ uniform vec3 line;
 uniform vec3 shade;
 uniform float strength;
 
-// Lines of a width in cells, thinned out where they would be thinner than a pixel.
-float lines(vec2 at, float width) {
-  vec2 step_ = max(fwidth(at), vec2(0.00001));
-  vec2 drawn = clamp(vec2(width), step_, vec2(0.5));
-  vec2 near = 1.0 - abs(fract(at) * 2.0 - 1.0);
-  vec2 on = smoothstep(drawn + step_ * 1.4, drawn - step_ * 1.4, near) * clamp(width / drawn, 0.0, 1.0);
-  on = mix(on, vec2(width), clamp(step_ * 2.0 - 1.0, 0.0, 1.0));
-  return mix(on.x, 1.0, on.y);
+// How much of a pixel the lines cover half_ metres thick on both sides that are away metres from it. Lines
+// thinner than a pixel are drawn a pixel wide and fainter.
+float lines(vec2 away, float half_, vec2 step_) {
+  vec2 wide = max(vec2(half_), step_ * 0.6);
+  vec2 on = clamp((wide + 0.5 * step_ - away) / step_, 0.0, 1.0) * clamp(1.6 * half_ / step_, 0.0, 1.0);
+  return max(on.x, on.y);
 }
 
 vec3 paint(float lit) {
-  float away = distance(vGround, centre) / reach;
-  float near = 1.0 - smoothstep(0.0, 1.0, away);
-  vec3 color = mix(horizon, ground, near * near);
-  if (away < 1.0) {
-    float grid = max(lines(vGround, 0.014) * 0.62, lines(vGround * 0.2, 0.005));
-    color = mix(color, line, grid * near);
-  }
-  color = mix(color, shade, strength * (1.0 - lit) * near);
-  // Half a step of the screen's colours: dark slopes would show bands otherwise.
-  float grain = fract(sin(dot(gl_FragCoord.xy, vec2(12.9898, 78.233))) * 43758.5453) - 0.5;
-  return color + grain / 1600.0;
+  vec2 way = (vGround - centre) / reach;
+  float near = max(1.0 - dot(way, way), 0.0);
+  near *= near;
+  vec3 color = mix(horizon, ground, near);
+  vec2 step_ = max(fwidth(vGround), vec2(0.0001));
+  vec2 metre = abs(fract(vGround + 0.5) - 0.5);
+  vec2 fifth = abs(fract(vGround * 0.2 + 0.5) - 0.5) * 5.0;
+  float grid = max(lines(metre, 0.007, step_) * 0.62, lines(fifth, 0.009, step_));
+  color = mix(color, line, grid * near);
+  return mix(color, shade, strength * (1.0 - lit) * near);
 }
 `;

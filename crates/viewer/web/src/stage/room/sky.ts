@@ -1,30 +1,30 @@
-import { BackSide, Color, Mesh, type Object3D, ShaderMaterial, SphereGeometry, type Vector3 } from 'three';
+import { BackSide, type BufferGeometry, Color, Float32BufferAttribute, Mesh, MeshBasicMaterial, type Object3D, SphereGeometry, type Vector3 } from 'three';
+import { displayed } from './displayed';
 import type { Look } from './theme';
 
 /** What is behind everything: the horizon's colour, which grows into the zenith's. */
 export class Sky {
-  private readonly mesh: Mesh<SphereGeometry, ShaderMaterial>;
+  private readonly mesh: Mesh<BufferGeometry, MeshBasicMaterial>;
 
   constructor(parent: Object3D) {
     // The upper half and a little more: the ground covers the rest.
-    const dome = new SphereGeometry(120, 32, 12, 0, 2 * Math.PI, 0, Math.PI * 0.56).rotateX(Math.PI / 2);
-    const material = new ShaderMaterial({
-      uniforms: { zenith: { value: new Color() }, horizon: { value: new Color() } },
-      vertexShader: VERTEX,
-      fragmentShader: FRAGMENT,
-      side: BackSide,
-      depthTest: false,
-      depthWrite: false,
-    });
-    this.mesh = new Mesh(dome, material);
+    const dome = new SphereGeometry(120, 24, 20, 0, 2 * Math.PI, 0, Math.PI * 0.56).rotateX(Math.PI / 2);
+    this.mesh = new Mesh(dome, displayed(new MeshBasicMaterial({ vertexColors: true, side: BackSide, depthTest: false, depthWrite: false })));
     this.mesh.renderOrder = -20;
     this.mesh.frustumCulled = false;
     parent.add(this.mesh);
   }
 
+  /** Takes the colours of a theme: in the corners, since a whole sky of pixels is dear where a processor draws. */
   wear(look: Look): void {
-    (this.mesh.material.uniforms['zenith']?.value as Color).copy(look.zenith);
-    (this.mesh.material.uniforms['horizon']?.value as Color).copy(look.horizon);
+    const corners = this.mesh.geometry.getAttribute('position');
+    const colors = new Float32Array(3 * corners.count);
+    const [zenith, horizon] = [look.zenith.clone().convertLinearToSRGB(), look.horizon.clone().convertLinearToSRGB()];
+    for (let corner = 0; corner < corners.count; corner += 1) {
+      const height = Math.min(Math.max(corners.getZ(corner) / 120 / 0.55, 0), 1);
+      new Color().lerpColors(horizon, zenith, height * height * (3 - 2 * height)).toArray(colors, 3 * corner);
+    }
+    this.mesh.geometry.setAttribute('color', new Float32BufferAttribute(colors, 3));
   }
 
   /** The sky is around whoever looks. */
@@ -37,22 +37,3 @@ export class Sky {
     this.mesh.material.dispose();
   }
 }
-
-const VERTEX = /* glsl */ `
-varying float vHeight;
-void main() {
-  vHeight = normalize(position).z;
-  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-}
-`;
-
-const FRAGMENT = /* glsl */ `
-uniform vec3 zenith;
-uniform vec3 horizon;
-varying float vHeight;
-void main() {
-  float grain = fract(sin(dot(gl_FragCoord.xy, vec2(12.9898, 78.233))) * 43758.5453) - 0.5;
-  gl_FragColor = vec4(mix(horizon, zenith, smoothstep(0.0, 0.55, vHeight)) + grain / 1600.0, 1.0);
-  #include <colorspace_fragment>
-}
-`;

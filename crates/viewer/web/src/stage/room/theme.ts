@@ -20,6 +20,8 @@ export interface Look {
   visor: Color;
   object: Color;
   marker: Color;
+  /** What lies on the ground as light: contacts. */
+  glow: Color;
   tag: { ground: string; ink: string; faint: string; edge: string };
 }
 
@@ -33,14 +35,15 @@ export const LOOKS: Record<Theme, Look> = {
     shadow: 0.62,
     skyLight: new Color('#c3d2ea'),
     groundLight: new Color('#4b4440'),
-    ambient: 1.15,
-    key: 2.5,
-    rim: 1.5,
+    ambient: 1.7,
+    key: 2.3,
+    rim: 1.6,
     exposure: 1,
     skin: new Color('#cfc9c2'),
     visor: new Color('#20242b'),
     object: new Color('#9aa3ad'),
     marker: new Color('#e8edf4'),
+    glow: new Color('#ffffff'),
     tag: { ground: 'rgba(13,17,23,0.78)', ink: '#f0f3f7', faint: '#a9b4c2', edge: 'rgba(255,255,255,0.10)' },
   },
   light: {
@@ -60,6 +63,7 @@ export const LOOKS: Record<Theme, Look> = {
     visor: new Color('#2b3038'),
     object: new Color('#8b949e'),
     marker: new Color('#3c4654'),
+    glow: new Color('#20262e'),
     tag: { ground: 'rgba(255,255,255,0.88)', ink: '#171c23', faint: '#4d5866', edge: 'rgba(10,20,30,0.12)' },
   },
 };
