@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { test } from 'node:test';
 import { AXE, assertQuiet, browser, open, picture, waitForStates } from './lib/page.mjs';
-import { start, view } from './lib/program.mjs';
+import { start, until, view } from './lib/program.mjs';
 import { walkerTake } from './lib/take.mjs';
 
 /** axe finds nothing to object to. */
@@ -30,13 +30,14 @@ for (const colorScheme of ['dark', 'light']) {
       window.posewire.plot('0:position/Pelvis/z');
       window.posewire.plot('0:joint_angles/jRightKnee/z');
     });
-    if (await tab.locator('#plots').isHidden()) await tab.keyboard.press('g');
+    await until(() => tab.evaluate(() => window.posewire.traces.all.length === 2), 'both channels');
+    await tab.keyboard.press('g');
     await assertAccessible(tab, 'live with plots');
     await picture(tab, `live-${colorScheme}`);
     await tab.keyboard.press('?');
     await assertAccessible(tab, 'help');
     await tab.keyboard.press('Escape');
-    await tab.getByRole('button', { name: 'Channel' }).click();
+    await tab.getByRole('button', { name: 'Channel', exact: true }).click();
     await assertAccessible(tab, 'picker');
     await tab.keyboard.press('Escape');
     streams.child.kill('SIGINT');

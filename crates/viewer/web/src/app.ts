@@ -18,8 +18,7 @@ import type { Series, Tick } from './protocol/decode';
 import { Live, type Connection } from './protocol/live';
 import type { TextMessage } from './protocol/statistics';
 import type { Scene, SubjectRecord } from './protocol/types';
-import { Stage } from './stage';
-import { subjectColor } from './stage/palette';
+import { Stage, subjectColor } from './stage';
 import { Player } from './transport/player';
 import { type Transport, transport } from './transport/transport';
 import { keysOf } from './view/bindings';
@@ -40,6 +39,8 @@ export class App {
   private bar: Transport | null = null;
   /** What is added to a subject's clock to have the server's, seconds. */
   private readonly shifts = new Map<number, number>();
+  /** Channels that are to be plotted once somebody has them. */
+  private readonly wanted = new Set<string>();
 
   constructor() {
     this.live = new Live({
@@ -143,6 +144,7 @@ export class App {
     // A server that was started again has the same takes: the playhead stays where it is.
     if (scene.mode === 'takes' && !this.player) this.play();
     this.controls.described(first);
+    this.plotWanted();
     this.refresh();
   }
 
@@ -163,10 +165,18 @@ export class App {
     if (held === undefined || Math.abs(held - shift) > 0.5) this.shifts.set(record.id, shift);
   }
 
-  /** Adds a channel by its key, where somebody has it. */
+  /** Adds a channel by its key: as soon as somebody has it. */
   plot(key: string): void {
     const channel = findChannel(this.room.subjects, key);
-    if (channel && !this.traces.keys().has(key)) this.traces.toggle(channel);
+    if (!channel) this.wanted.add(key);
+    else if (!this.traces.keys().has(key)) this.traces.toggle(channel);
+  }
+
+  /** What a subject sends becomes known bit by bit: so do its channels. */
+  private plotWanted(): void {
+    const wanted = [...this.wanted];
+    this.wanted.clear();
+    for (const key of wanted) this.plot(key);
   }
 
   private plotSource() {

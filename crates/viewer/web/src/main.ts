@@ -1,7 +1,7 @@
 /** The page: puts its parts together, and keeps them at what is known now. */
 
 import 'uplot/dist/uPlot.min.css';
-import './style.css';
+import './style/index.css';
 import { App } from './app';
 
 const app = new App();

@@ -26,6 +26,7 @@ function waiting(sources: string[]): HTMLElement {
     h('p', {}, 'This page listens on'),
     h('ul', { class: 'sources' }, ...where),
     mxtp ? mvn(mxtp) : null,
+    sources.some(isLoopback) ? h('p', { class: 'aside' }, 'Only programs of this machine reach a loopback address: 0.0.0.0 listens to others as well.') : null,
     natnet ? motive() : null,
     h('p', { class: 'aside' }, 'Without a suit: ', h('code', {}, 'posewire demo')),
   );
@@ -51,6 +52,11 @@ function motive(): HTMLElement {
     h('li', {}, 'In Motive, open Edit > Settings > Streaming and switch NatNet on.'),
     h('li', {}, 'Choose as local interface the network that both machines are on, and stream skeletons and rigid bodies.'),
   );
+}
+
+/** Whether only this machine can send there. */
+function isLoopback(source: string): boolean {
+  return /^mxtp[^:]*:\/\/(127\.|localhost|\[::1\])/.test(source);
 }
 
 /** The name under which the browser found this machine is one that the sender may find it by, unless it is the loopback. */

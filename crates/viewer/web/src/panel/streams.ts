@@ -61,8 +61,8 @@ function streamGroup(source: SourceStatistics, key: string, prefix: string): Gro
   const title = `${prefix}${first.name || `character ${first.character ?? 0}`}`;
   const rows = own.map((stream) => new StreamRow(streamKey(source, stream), stream));
   const summary = h('span', { class: 'summary-note' });
-  const columns = ['Type', 'Rate', 'Last 2 min', 'Missing', 'Interval p50, p99'];
-  const head = h('tr', {}, ...columns.map((column) => h('th', { scope: 'col' }, column)));
+  const columns = ['Type', 'Rate', 'Last 2 min', 'Missing', INTERVAL];
+  const head = h('tr', {}, ...columns.map((column) => h('th', { scope: 'col', title: column === INTERVAL ? 'Time between a datagram and the next' : null }, column)));
   const table = h('table', {}, h('thead', {}, head), h('tbody', {}, ...rows.map((row) => row.element)));
   const element = h('details', {}, h('summary', {}, h('span', { class: 'summary-name' }, title), summary), table);
   const show = (statistics: Statistics, room: Room): void => {
@@ -102,10 +102,15 @@ class StreamRow {
     setText(this.missing, count(stream.missing));
     this.missing.classList.toggle('bad', stream.missing > 0);
     const { p50, p99 } = stream.interval_ms ?? { p50: null, p99: null };
-    setText(this.interval, `${milliseconds(p50).replace(' ms', '')}, ${milliseconds(p99)}`);
+    setText(this.interval, `${bare(p50)}, ${bare(p99)}`);
     this.line.show(room.history.seconds(this.key));
     this.element.title = explanation(stream);
   }
+}
+
+/** Milliseconds, whose unit is in the head of the column. */
+function bare(value: number | null): string {
+  return milliseconds(value).replace(' ms', '');
 }
 
 /** What has no column: said on hovering over the row. */
@@ -123,6 +128,8 @@ function typeName(type: string): string {
   const name = TYPES[type];
   return name ? `${type} ${name}` : type === 'frame' ? 'Frames' : type;
 }
+
+const INTERVAL = 'p50, p99 ms';
 
 /** The datagram types of MXTP, in two words at most. */
 const TYPES: Record<string, string> = {

@@ -8,7 +8,7 @@ import { type Channel, channelKey, search, suggestions, title } from './channels
 /** Opens the dialog. `chosen` says which are plotted, `toggle` adds or removes one. */
 export function pickChannels(subjects: Subject[], chosen: () => Set<string>, toggle: (channel: Channel) => void): void {
   const input = h('input', {
-    type: 'search', id: 'channel-search', placeholder: 'right knee flexion', autocomplete: 'off', spellcheck: 'false',
+    type: 'text', role: 'searchbox', id: 'channel-search', placeholder: 'right knee flexion', autocomplete: 'off', spellcheck: 'false',
   });
   const list = h('ul', { class: 'channels' });
   const note = h('p', { class: 'aside', role: 'status' });

@@ -46,6 +46,7 @@ export function scrubber(takes: Take[], span: Span, playhead: Playhead, seek: (s
   listen(element, span, seek);
   hints(element, tip, takes, span);
   new ResizeObserver(redraw).observe(element);
+  refresh();
   return { element, refresh, redraw };
 }
 
