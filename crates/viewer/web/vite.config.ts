@@ -1,4 +1,5 @@
-import { defineConfig, loadEnv } from 'vite';
+import { loadEnv } from 'vite';
+import { defineConfig } from 'vitest/config';
 
 const env = loadEnv('', '.', 'POSEWIRE_');
 
@@ -15,6 +16,8 @@ export default defineConfig({
     modulePreload: { polyfill: false },
     chunkSizeWarningLimit: 1500,
   },
+  // The contrasts of the style are tested.
+  test: { css: true },
   server: {
     host: '127.0.0.1',
     proxy: {
