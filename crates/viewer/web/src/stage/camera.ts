@@ -138,7 +138,7 @@ const DIRECTIONS: Record<Exclude<Preset, 'free'>, Vector3> = {
 };
 
 /** From ahead and a little above, the likeliest to please first. */
-const FREE = [-38, 38, 0, -62, 62, 90, -90].map((degrees) => {
+const FREE = [-38, 38, -52, 52, 0].map((degrees) => {
   const angle = MathUtils.degToRad(degrees);
   return new Vector3(Math.cos(angle), Math.sin(angle), 0.3).normalize();
 });

@@ -10,10 +10,20 @@ import type { Performer } from './performer';
 import type { Look } from './room/theme';
 import { type Tones, tones } from './tones';
 
-/** Draws one subject with all that the options ask for. `soft` tells how strong the shadows under it are. */
-export function draw(performer: Performer, brush: Brush, look: Look, options: StageOptions, soft: number): void {
+/** How one subject is to be drawn. */
+export interface Manner {
+  look: Look;
+  options: StageOptions;
+  /** How strong the soft shadows under it are. */
+  soft: number;
+  /** How many pixels high a person is where it stands. */
+  pixels: number;
+}
+
+/** Draws one subject with all that the options ask for. */
+export function draw(performer: Performer, brush: Brush, { look, options, soft, pixels }: Manner): void {
   const colors = tones(performer.color, performer.state, look);
-  drawParts(performer, brush, colors);
+  drawParts(performer, brush, colors, pixels);
   drawObject(performer, brush, colors);
   drawGround(performer, brush, look, colors, soft);
   if (options.axes || performer.subject.kind === 'rigid body') drawAxes(performer, brush);
@@ -28,14 +38,20 @@ function presence(performer: Performer, segment: number): number {
   return performer.state === State.Lost ? Math.min(seen, Seen.Before) : seen;
 }
 
-function drawParts(performer: Performer, brush: Brush, colors: Tones): void {
+function drawParts(performer: Performer, brush: Brush, colors: Tones, pixels: number): void {
+  const body = pixels < SMALL ? brush.far : brush.near;
   for (const part of performer.parts) {
+    if (part.fine && pixels < TINY) continue;
     const seen = presence(performer, part.segment);
     if (seen === Seen.Never) continue;
-    const batch = seen === Seen.Before ? brush.ghost : part.fine ? brush.fine : brush.body;
+    const batch = seen === Seen.Before ? brush.ghost : part.fine ? brush.fine : body;
     batch.add(part, start(performer, part), turn(performer, part), seen === Seen.Before ? colors.accent : colors[part.tone]);
   }
 }
+
+/** Persons of fewer pixels are drawn with fewer triangles, and still smaller ones without fingers. */
+const SMALL = 210;
+const TINY = 110;
 
 const PLACE = new Vector3();
 const TURN = new Quaternion();

@@ -7,7 +7,7 @@ import { DEFAULTS, type Preset, type StageOptions, type StageStats, type ViewSta
 import { Performer } from './performer';
 import { pick, pickPoints } from './pick';
 import { Pulse } from './pulse';
-import { AdaptiveQuality, QUALITY } from './quality';
+import { AdaptiveQuality, QUALITY, type QualityStep, SLOW_START, STILL } from './quality';
 import { Floor } from './room/floor';
 import { Lights } from './room/lights';
 import { Sky } from './room/sky';
@@ -47,6 +47,9 @@ export class Stage {
   private posesChanged = true;
   private viewChanged = true;
   private framedAt: number | null = null;
+  /** What the picture is drawn with now. */
+  private step: QualityStep;
+  private restedFor = 0;
   private pressed: { x: number; y: number } | null = null;
 
   /** Throws where the browser has no WebGL 2. */
@@ -57,6 +60,7 @@ export class Stage {
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.autoUpdate = false;
     this.quality = new AdaptiveQuality(slow ? SLOW_START : 0);
+    this.step = QUALITY[this.quality.step] ?? STILL;
     this.floor = new Floor(this.scene);
     this.sky = new Sky(this.scene);
     this.lights = new Lights(this.scene);
@@ -134,6 +138,7 @@ export class Stage {
 
   /** What is seen now, as PNG. */
   async screenshot(): Promise<Blob> {
+    this.useStep(STILL);
     this.posesChanged = true;
     this.render();
     return new Promise((resolve, reject) => {
@@ -156,18 +161,29 @@ export class Stage {
     for (const part of [this.eye, this.brush, this.floor, this.sky, this.lights, this.tags, this.renderer]) part.dispose();
   }
 
-  /** One frame of the screen; true when something was drawn. */
+  /** One frame of the screen; true when something was drawn that tells how quick drawing is. */
   private tick(seconds: number, sinceDrawn: number | null): boolean {
-    if (sinceDrawn !== null && this.quality.frame(sinceDrawn)) this.resize();
+    if (sinceDrawn !== null) this.quality.frame(sinceDrawn);
     this.frameEverybody();
     if (this.eye.update(seconds, this.goal())) this.viewChanged = true;
-    if (!this.posesChanged && !this.viewChanged) return false;
+    if (!this.posesChanged && !this.viewChanged) return this.rest(seconds);
+    this.restedFor = 0;
+    this.useStep(QUALITY[this.quality.step] ?? STILL);
     this.render();
     return true;
   }
 
+  /** Nothing moves: after a moment the same picture once more, as well as can be. */
+  private rest(seconds: number): false {
+    this.restedFor += seconds;
+    if (this.restedFor < STILL_AFTER || this.step.pixelRatio >= STILL.pixelRatio) return false;
+    this.useStep(STILL);
+    this.render();
+    return false;
+  }
+
   private render(): void {
-    if (this.posesChanged) this.drawPerformers();
+    this.drawPerformers();
     this.tags.place(this.eye.camera, this.size.height);
     this.sky.surround(this.eye.camera.position);
     this.renderer.render(this.scene, this.eye.camera);
@@ -176,13 +192,22 @@ export class Stage {
 
   private drawPerformers(): void {
     const shown = this.shown();
-    this.attend();
+    if (this.posesChanged) this.attend();
     this.brush.begin();
-    const soft = this.look.shadow * (QUALITY[this.quality.step]?.shadows ? 0.42 : 0.85);
-    for (const performer of shown) draw(performer, this.brush, this.look, this.options, soft);
+    const soft = this.look.shadow * (this.step.shadows > 0 ? 0.42 : 0.85);
+    for (const performer of shown) {
+      draw(performer, this.brush, { look: this.look, options: this.options, soft, pixels: this.pixels(performer) });
+    }
     this.brush.end();
     this.tags.write(this.options.names ? shown : [], this.look);
-    this.renderer.shadowMap.needsUpdate = true;
+    this.renderer.shadowMap.needsUpdate = this.posesChanged;
+  }
+
+  /** How many pixels high a person is where a performer stands. */
+  private pixels(performer: Performer): number {
+    const { camera } = this.eye;
+    const away = performer.centre()?.distanceTo(camera.position) ?? Infinity;
+    return (1.75 * this.size.height * this.renderer.getPixelRatio()) / (2 * Math.tan((camera.fov * Math.PI) / 360) * Math.max(away, 0.1));
   }
 
   /** Light and the clear part of the floor go where there is something to see. */
@@ -217,20 +242,30 @@ export class Stage {
     return this.followed === null ? null : (this.performers.get(this.followed)?.centre() ?? null);
   }
 
+  private useStep(step: QualityStep): void {
+    if (this.step === step) return;
+    this.step = step;
+    this.fitCanvas();
+  }
+
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    const step = QUALITY[this.quality.step];
-    if (width === 0 || height === 0 || !step) return;
+    if (width === 0 || height === 0) return;
     this.size = { width, height };
-    const ratio = Math.min(window.devicePixelRatio, step.pixelRatio);
-    this.renderer.setPixelRatio(ratio);
+    this.fitCanvas();
+    // A canvas of a new size is empty until it is drawn.
+    this.render();
+  }
+
+  private fitCanvas(): void {
+    const { width, height } = this.size;
+    const { pixelRatio, shadows } = this.step;
+    this.renderer.setPixelRatio(this.step === STILL ? pixelRatio : Math.min(window.devicePixelRatio, pixelRatio));
     this.renderer.setSize(width, height, false);
     this.brush.resize(width, height);
     this.eye.resize(width, height);
-    this.lights.shadows = step.shadows;
+    this.lights.shadows = shadows;
     this.posesChanged = true;
-    // A canvas of a new size is empty until it is drawn.
-    this.render();
   }
 
   private readonly onDown = (event: PointerEvent): void => {
@@ -264,5 +299,5 @@ function around(points: Vector3[]): { centre: Vector3; radius: number } {
   return { centre: box.getCenter(new Vector3()), radius: box.getSize(new Vector3()).setZ(0).length() / 2 };
 }
 
-/** The step of quality that a machine without a graphics card begins with. */
-const SLOW_START = 2;
+/** How long nothing moves, in seconds, until the picture is drawn once more as well as can be. */
+const STILL_AFTER = 0.3;

@@ -9,12 +9,19 @@ export interface QualityStep {
 /** From the best to what a machine without a graphics card draws. */
 export const QUALITY: readonly QualityStep[] = [
   { pixelRatio: 2, shadows: 2048 },
-  { pixelRatio: 1.5, shadows: 1024 },
+  { pixelRatio: 1.5, shadows: 2048 },
   { pixelRatio: 1, shadows: 1024 },
-  { pixelRatio: 1, shadows: 512 },
+  { pixelRatio: 1, shadows: 0 },
   { pixelRatio: 0.85, shadows: 0 },
-  { pixelRatio: 0.66, shadows: 0 },
+  { pixelRatio: 0.7, shadows: 0 },
+  { pixelRatio: 0.55, shadows: 0 },
 ];
+
+/** The step that a machine without a graphics card begins with. */
+export const SLOW_START = 3;
+
+/** For a picture that has time: when nothing moves, and for screenshots. More pixels than the screen has smooth edges. */
+export const STILL: QualityStep = { pixelRatio: 2, shadows: 2048 };
 
 /**
  * Picks the step of quality that holds the frame rate: down when frames take long, up again when there is time, and

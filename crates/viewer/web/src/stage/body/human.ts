@@ -78,15 +78,15 @@ function hip(body: Body, pelvis: number, hips: number): Part {
   const joint = hips / (0.09 * body.size);
   return part(pelvis, body.at(-0.004, 0, -0.005), body.at(-0.002, 0, 0.06), {
     start: body.section(0.08 * joint + 0.074, 0.104),
-    end: body.section(0.151, 0.104),
-    caps: body.caps(0.09, 0.05),
+    end: body.section(0.152, 0.106),
+    caps: body.caps(0.09, 0.045),
     tone: 'trousers',
   });
 }
 
 function waist(body: Body, pelvis: number, next: number): Part {
   return part(pelvis, body.at(0, 0, 0.03), body.way(pelvis, next), {
-    start: body.section(0.15, 0.104),
+    start: body.section(0.139, 0.097),
     end: body.section(0.135, 0.098),
     caps: body.caps(0.04, 0.045),
     tone: 'trousers',
@@ -110,8 +110,8 @@ function vertebrae(body: Body, segment: number, next: number, last: boolean): Pa
 
 function ribs(body: Body, segment: number, neck: number): Part {
   const top = body.way(segment, neck);
-  return part(segment, body.at(0.002, 0, 0), top.clone().multiplyScalar(0.62), {
-    start: body.section(0.143, 0.109),
+  return part(segment, body.at(0.004, 0, -0.016), top.clone().multiplyScalar(0.62), {
+    start: body.section(0.15, 0.116),
     end: body.section(0.157, 0.094),
     caps: body.caps(0.05, 0.07),
     bulge: 0.007 * body.size,
@@ -143,11 +143,11 @@ function head(body: Body): Part[] {
   const size = top / 0.23;
   const at = (x: number, y: number, z: number) => new Vector3(x, y, z).multiplyScalar(size);
   return [
-    part(neck, body.at(-0.014, 0, -0.05), body.way(neck, skull).multiplyScalar(0.45).add(body.at(-0.004, 0, 0)), {
+    part(neck, body.at(-0.008, 0, -0.05), body.way(neck, skull).multiplyScalar(0.42).add(body.at(-0.002, 0, 0)), {
       start: body.section(0.135, 0.082),
-      end: body.section(0.063, 0.063),
-      caps: body.caps(0.03, 0.004),
-      bulge: -0.014 * body.size,
+      end: body.section(0.064, 0.066),
+      caps: body.caps(0.03, 0.006),
+      bulge: -0.01 * body.size,
     }),
     part(neck, body.at(0, 0, 0), body.way(neck, skull).add(at(0.006, 0, 0.03)), {
       start: body.section(0.058, 0.058),
@@ -162,11 +162,11 @@ function head(body: Body): Part[] {
       bulge: 0.008 * size,
       tone: 'skin',
     }),
-    part(skull, at(0.056, -0.056, 0.112), at(0.056, 0.056, 0.112), {
-      start: [0.017 * size, 0.02 * size],
+    part(skull, at(0.05, -0.056, 0.114), at(0.05, 0.056, 0.114), {
+      start: [0.02 * size, 0.027 * size],
       caps: [0.014 * size, 0.014 * size],
-      bulge: 0.004 * size,
-      bow: 0.03 * size,
+      bulge: 0.003 * size,
+      bow: 0.031 * size,
       broad: UP,
       tone: 'visor',
     }),
