@@ -1,8 +1,8 @@
 /** Numbers as text, in the widths that a column of them needs. */
 
-/** "240 Hz", "59.9 Hz"; a dash when unknown. */
-export function hertz(rate: number | null): string {
-  return rate === null ? '–' : `${shortRate(rate)} Hz`;
+/** "240 Hz", "59.9 Hz". */
+export function hertz(rate: number): string {
+  return `${shortRate(rate)} Hz`;
 }
 
 /** "240", "59.9". */

@@ -78,9 +78,10 @@ class Row {
     const state = stateName(room, record);
     setAttribute(this.element, 'data-state', state);
     setText(this.state, STATES[state]);
-    setText(this.rate, hertz(room.rate(this.subject)));
+    const rate = room.rate(this.subject);
+    setText(this.rate, rate === null ? '' : hertz(rate));
     setText(this.age, this.ages.text(record, room));
-    setText(this.detail, detail(this.subject, record));
+    setText(this.detail, detail(room, this.subject, record));
     setAttribute(this.follow, 'aria-pressed', String(room.followed === id));
     setAttribute(this.hide, 'aria-pressed', String(room.hidden.has(id)));
     setIcon(this.hide, room.hidden.has(id) ? 'hidden' : 'shown');
@@ -128,9 +129,10 @@ const STATES: Record<StateName, string> = {
   unknown: 'UNKNOWN',
 };
 
-/** "23 segments", and what is missing of a whole pose. */
-function detail(subject: Subject, record: SubjectRecord | undefined): string {
-  const parts = [size(subject, record)];
+/** "23 segments", and what is missing of a whole pose. Of several takes, which is whose. */
+function detail(room: Room, subject: Subject, record: SubjectRecord | undefined): string {
+  const file = room.takes.length > 1 ? (room.takeOf(subject.id)?.file ?? '') : '';
+  const parts = [file, size(subject, record)];
   const flags = record?.flags ?? Flag.Positions | Flag.Orientations;
   if (flags & Flag.InPlace) parts.push('orientations only, in place');
   else if (subject.segments.length > 0 && !(flags & Flag.Orientations)) parts.push('positions only');

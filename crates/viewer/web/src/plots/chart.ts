@@ -77,7 +77,7 @@ export class Chart {
     return {
       width: Math.max(this.parent.clientWidth, 100),
       height: Math.max(this.parent.clientHeight, 80),
-      padding: [8, 8, 0, 0],
+      padding: [8, 18, 0, 0],
       legend: { show: false },
       cursor: {
         sync: { key: 'posewire', setSeries: false },
