@@ -1,12 +1,12 @@
 import { Vector3 } from 'three';
-import { Flag } from '../protocol/types';
+import { Flag, State } from '../protocol/types';
 import { Seen } from './body/shown_pose';
 import type { Performer } from './performer';
 
 /** Where the body touches the ground now, by the contacts that are set: on the ground under heel or toe. */
 export function contacts(performer: Performer): Vector3[] {
   const { record, subject } = performer;
-  if (!record || !(record.flags & Flag.Contacts)) return [];
+  if (!record || record.state === State.Lost || !(record.flags & Flag.Contacts)) return [];
   return subject.contacts.flatMap((name, bit) => {
     const at = (record.contacts >>> bit) & 1 ? touching(performer, name) : null;
     return at ? [at] : [];

@@ -90,8 +90,8 @@ export class Performer {
     if (flags & Flag.InPlace) notes.push('orientations only, in place');
     else if (flags & Flag.Positions && !(flags & Flag.Orientations)) notes.push('positions only');
     const lost = this.pose.count(Seen.Before);
-    if (never > 0) notes.push(`${never} never tracked`);
-    if (lost > 0) notes.push(`${lost} not tracked`);
+    if (never > 0) notes.push(`${segments(never)} never tracked`);
+    if (lost > 0) notes.push(`${segments(lost)} not tracked`);
     return notes.join(' · ');
   }
 
@@ -110,6 +110,10 @@ export class Performer {
     }
     return points;
   }
+}
+
+function segments(count: number): string {
+  return count === 1 ? '1 segment' : `${count} segments`;
 }
 
 /** The segments that leave trails: of a person head, hands, feet and pelvis, else whatever nothing hangs on. */
