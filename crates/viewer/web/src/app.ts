@@ -47,6 +47,7 @@ export class App {
       tick: (tick) => this.tick(tick),
       series: (series) => this.series(series),
       text: (message) => this.text(message),
+      unreadable: (reason) => this.room.notice(`The server speaks another version: reload this page (${reason})`),
       connection: (state, retryIn) => this.connected(state, retryIn),
     });
     const ask = this.live.askPlots.bind(this.live);

@@ -3,7 +3,15 @@
 import 'uplot/dist/uPlot.min.css';
 import './style/index.css';
 import { App } from './app';
+import { byId, h } from './dom/h';
 
-const app = new App();
-// What tests and the console of the browser look at.
-Object.assign(window, { posewire: app });
+try {
+  // What tests and the console of the browser look at.
+  Object.assign(window, { posewire: new App() });
+} catch (error) {
+  const empty = byId('empty');
+  empty.hidden = false;
+  const help = 'It needs WebGL 2: another browser has it, or hardware acceleration has to be switched on in this one.';
+  empty.replaceChildren(h('div', { class: 'waiting' }, h('h2', {}, 'This browser cannot draw the stage'), h('p', {}, help)));
+  throw error;
+}

@@ -29,6 +29,7 @@ export function performers(room: Room, actions: PerformerActions): Part {
       shown = room.revision;
       rows = reuse(rows, room.subjects, actions);
       list.replaceChildren(...rows.map((row) => row.element));
+      list.classList.toggle('many', rows.length > 8);
       setText(title, heading(room.subjects));
     }
     for (const row of rows) row.refresh(room);

@@ -1,6 +1,6 @@
 /** The connection to the server: it comes back by itself, a little later after each attempt that failed. */
 
-import { decodeMessage, type Series, type Tick } from './decode';
+import { MalformedMessage, type Series, type Tick, decodeMessage } from './decode';
 import type { TextMessage } from './statistics';
 
 export type Connection = 'connecting' | 'open' | 'lost';
@@ -9,6 +9,8 @@ export interface LiveEvents {
   tick(tick: Tick): void;
   series(series: Series): void;
   text(message: TextMessage): void;
+  /** A message that cannot be read: the server is of another version than the page. */
+  unreadable(reason: string): void;
   /** `retryIn` is in seconds, while the connection is lost. */
   connection(state: Connection, retryIn: number): void;
 }
@@ -23,20 +25,14 @@ export class Live {
   private socket: WebSocket | null = null;
   private failures = 0;
   private plots: PlotRequest[] = [];
-  private rate = 30;
+  private rate = RATE;
   private timer = 0;
 
   constructor(private readonly events: LiveEvents) {
     this.open();
     // A page that comes back from the background, or a network that does, need not wait.
     window.addEventListener('online', () => this.retry());
-    document.addEventListener('visibilitychange', () => document.hidden || this.retry());
-  }
-
-  /** Asks for so many ticks a second, from 1 to 120. */
-  askRate(hz: number): void {
-    this.rate = hz;
-    this.send({ type: 'rate', hz });
+    document.addEventListener('visibilitychange', () => this.seen(!document.hidden));
   }
 
   /** Asks for these channels and no others. */
@@ -71,6 +67,13 @@ export class Live {
     this.timer = window.setTimeout(() => this.open(), wait * 1000);
   }
 
+  /** Nobody looks at a page in the background: it asks for a tick a second, to know the states. */
+  private seen(visible: boolean): void {
+    this.rate = visible ? RATE : 1;
+    this.send({ type: 'rate', hz: this.rate });
+    if (visible) this.retry();
+  }
+
   private retry(): void {
     if (this.socket) return;
     window.clearTimeout(this.timer);
@@ -78,6 +81,15 @@ export class Live {
   }
 
   private take(data: string | ArrayBuffer): void {
+    try {
+      this.read(data);
+    } catch (error) {
+      if (!(error instanceof MalformedMessage || error instanceof SyntaxError)) throw error;
+      this.events.unreadable(error.message);
+    }
+  }
+
+  private read(data: string | ArrayBuffer): void {
     if (typeof data === 'string') return this.events.text(JSON.parse(data) as TextMessage);
     const message = decodeMessage(data);
     if (message.kind === 'tick') this.events.tick(message.tick);
@@ -96,3 +108,6 @@ export class Live {
 export function backoff(failures: number, chance: number): number {
   return Math.min(4, 0.25 * 2 ** failures) * (0.75 + 0.5 * chance);
 }
+
+/** Ticks a second that a page asks for. */
+const RATE = 30;
