@@ -32,7 +32,7 @@ pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
     } else if let Some(usage) = error.downcast_ref::<Usage>() {
         (true, Some(usage.help.clone()))
     } else if let Some(help) = viewer_help(error) {
-        (false, help)
+        (false, Some(help))
     } else {
         (
             false,
@@ -52,12 +52,12 @@ pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
 
 /// What to do about a failure of the browser page, if it is one.
 #[cfg(feature = "viewer")]
-fn viewer_help(error: &anyhow::Error) -> Option<Option<String>> {
-    error.downcast_ref().map(posewire_viewer::Error::help)
+fn viewer_help(error: &anyhow::Error) -> Option<String> {
+    error.downcast_ref().and_then(posewire_viewer::Error::help)
 }
 
 #[cfg(not(feature = "viewer"))]
-fn viewer_help(_: &anyhow::Error) -> Option<Option<String>> {
+fn viewer_help(_: &anyhow::Error) -> Option<String> {
     None
 }
 

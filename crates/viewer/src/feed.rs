@@ -74,6 +74,11 @@ impl Feed {
         }
     }
 
+    /// A source as its endpoint.
+    pub(crate) fn source(&self, id: u16) -> Option<&str> {
+        self.sources.get(usize::from(id)).map(String::as_str)
+    }
+
     /// Takes what a source brings.
     pub(crate) fn take(&self, source: SourceId, item: &Item) {
         let mut newest = self.lock();

@@ -1,6 +1,8 @@
 //! Numbers for Prometheus.
 
+use crate::Feed;
 use crate::app::App;
+use posewire::stats::{Statistics, StreamStatistics};
 use std::fmt::Write;
 
 /// All of them as text, format 0.0.4.
@@ -46,20 +48,99 @@ pub(crate) fn text(app: &App) -> String {
         text.labelled("posewire_viewer_refused_total", &[("why", why)], count.value() as f64);
     }
     if let Some(feed) = app.feed() {
-        let (frames, refused) = feed.counts();
-        text.counter(
-            "posewire_viewer_frames_total",
-            "Samples that came, of all subjects.",
-            frames,
-        );
-        text.counter(
-            "posewire_viewer_subjects_refused_total",
-            "Samples of subjects beyond 4096.",
-            refused,
-        );
+        of_feed(&mut text, feed);
     }
     text.0
 }
+
+fn of_feed(text: &mut Text, feed: &Feed) {
+    let (frames, refused) = feed.counts();
+    text.counter(
+        "posewire_viewer_frames_total",
+        "Samples that came, of all subjects.",
+        frames,
+    );
+    text.counter(
+        "posewire_viewer_subjects_refused_total",
+        "Samples of subjects beyond 4096.",
+        refused,
+    );
+    let told = feed.statistics();
+    let told: Vec<_> = told
+        .iter()
+        .filter_map(|(id, told)| Some((feed.source(*id)?, &**told)))
+        .collect();
+    for (name, help, value) in SOURCE_COUNTERS {
+        text.head(name, help, "counter");
+        for (source, statistics) in &told {
+            text.labelled(name, &[("source", source)], value(statistics) as f64);
+        }
+    }
+    for (name, help, kind, value) in STREAM_NUMBERS {
+        text.head(name, help, kind);
+        for (source, statistics) in &told {
+            for (subject, stream) in statistics.streams() {
+                let (id, subject) =
+                    subject.map_or((String::new(), ""), |subject| (subject.id.to_string(), &subject.name));
+                let kind = stream.kind.to_string();
+                let labels = [
+                    ("source", *source),
+                    ("character", &id),
+                    ("name", subject),
+                    ("type", &kind),
+                ];
+                text.labelled(name, &labels, value(stream));
+            }
+        }
+    }
+}
+
+type OfSource = fn(&Statistics) -> u64;
+type OfStream = fn(&StreamStatistics) -> f64;
+
+const SOURCE_COUNTERS: [(&str, &str, OfSource); 4] = [
+    (
+        "posewire_datagrams_total",
+        "Datagrams that arrived, readable or not.",
+        |of| of.datagrams,
+    ),
+    ("posewire_bytes_total", "Their bytes.", |of| of.bytes),
+    ("posewire_malformed_total", "Datagrams that could not be read.", |of| {
+        of.malformed
+    }),
+    (
+        "posewire_kernel_dropped_total",
+        "Datagrams that the kernel of this machine dropped.",
+        |of| of.kernel_dropped,
+    ),
+];
+const STREAM_NUMBERS: [(&str, &str, &str, OfStream); 5] = [
+    (
+        "posewire_received_total",
+        "Whole messages, duplicates left out.",
+        "counter",
+        |of| of.counters.received as f64,
+    ),
+    (
+        "posewire_missing_total",
+        "Samples of which nothing came.",
+        "counter",
+        |of| of.counters.missing as f64,
+    ),
+    (
+        "posewire_duplicate_total",
+        "Messages that came again.",
+        "counter",
+        |of| of.counters.duplicate as f64,
+    ),
+    (
+        "posewire_late_total",
+        "Messages that came after a newer sample's.",
+        "counter",
+        |of| of.counters.late as f64,
+    ),
+    ("posewire_rate_hz", "Whole messages a second.", "gauge", |of| of.rate_hz),
+];
 
 /// Text in Prometheus' format.
 #[derive(Debug, Default)]
@@ -92,4 +173,16 @@ impl Text {
 /// A label's value as the format has it.
 fn escaped(value: &str) -> String {
     value.replace('\\', r"\\").replace('"', "\\\"").replace('\n', r"\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_cannot_end_its_label() {
+        let mut text = Text::default();
+        text.labelled("posewire_rate_hz", &[("name", "a\"} 1\nb\\")], 2.0);
+        assert_eq!(text.0, "posewire_rate_hz{name=\"a\\\"} 1\\nb\\\\\"} 2\n");
+    }
 }

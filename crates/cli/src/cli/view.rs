@@ -25,6 +25,10 @@ pub(crate) struct View {
     #[arg(long, value_name = "ADDR:PORT", default_value = ADDRESS)]
     pub(crate) listen: SocketAddr,
 
+    /// Ask pages of this machine for the token too, as where several people share it.
+    #[arg(long)]
+    pub(crate) token: bool,
+
     /// Open the page in this machine's browser.
     #[arg(long)]
     pub(crate) open: bool,

@@ -18,7 +18,6 @@ pub(crate) const LONG: Duration = Duration::from_secs(20);
 
 /// A server of a feed, which the test fills by hand.
 pub(crate) struct Stage {
-    pub(crate) feed: Feed,
     pub(crate) server: Server,
     sink: ViewerSink,
 }
@@ -35,7 +34,7 @@ impl Stage {
         let feed = Feed::new(&["mxtp://127.0.0.1:9763".parse().unwrap()]);
         let server = Server::start(Content::Live(feed.clone()), options).unwrap();
         let sink = ViewerSink::new(&feed);
-        Self { feed, server, sink }
+        Self { server, sink }
     }
 
     pub(crate) fn address(&self) -> SocketAddr {

@@ -49,6 +49,7 @@ fn show_live(endpoints: &[Endpoint], arguments: &View, stop: &Stop) -> anyhow::R
 fn options(arguments: &View) -> Options {
     Options {
         listen: arguments.listen,
+        token: arguments.token,
     }
 }
 
