@@ -3,10 +3,12 @@
 mod capture;
 mod convert;
 mod demo;
+mod doctor;
 mod explain;
 mod inspect;
 mod monitor;
 mod record;
+mod remote;
 mod replay;
 mod stream;
 #[cfg(test)]
@@ -17,6 +19,7 @@ mod view;
 pub(crate) use capture::Capture;
 pub(crate) use convert::{Axes, Convert, OfFormat, Unit};
 pub(crate) use demo::Demo;
+pub(crate) use doctor::Doctor;
 pub(crate) use explain::{Explain, Protocol};
 pub(crate) use inspect::Inspect;
 pub(crate) use monitor::Monitor;
@@ -67,5 +70,6 @@ pub(crate) enum Command {
     Inspect(Inspect),
     Convert(Convert),
     Explain(Explain),
+    Doctor(Doctor),
     Demo(Demo),
 }

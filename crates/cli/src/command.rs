@@ -2,6 +2,7 @@
 
 mod convert;
 mod demo;
+mod doctor;
 mod explain;
 mod inspect;
 mod monitor;
@@ -20,6 +21,8 @@ pub(crate) enum End {
     Done,
     /// It was done, but data was lost on this side.
     LostData,
+    /// It was done, and something is broken that was looked at.
+    Broken,
 }
 
 impl End {
@@ -32,6 +35,7 @@ impl End {
         ExitCode::from(match self {
             Self::Done => 0,
             Self::LostData => 3,
+            Self::Broken => 1,
         })
     }
 }
@@ -46,6 +50,7 @@ pub(crate) fn run(command: Command) -> anyhow::Result<End> {
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Replay(arguments) => replay::run(&arguments),
+        Command::Doctor(arguments) => doctor::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),
     }
 }

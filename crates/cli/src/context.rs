@@ -1,5 +1,7 @@
 //! What every verb needs of its surroundings: the wish to stop, the terminal, people to talk to.
 
+use crate::plain::printable;
+use posewire::remote::Remote;
 use posewire::stop::Stop;
 use posewire::{Item, Result, Sink, SourceId, Wants};
 use std::io::{IsTerminal, Write};
@@ -62,6 +64,20 @@ pub(crate) fn stops_on_interrupt() -> anyhow::Result<Stops> {
     ctrlc::set_handler(move || on_interrupt.interrupt())?;
     Ok(stops)
 }
+
+/// Says where commands are taken.
+pub(crate) fn announce_remote(remote: &Remote) {
+    say(format_args!("remote control on udp {}", remote.local_address()));
+}
+
+/// Says what came of a command.
+pub(crate) fn tell_of_remote(line: &str) {
+    end_progress();
+    say(format_args!("remote {}", printable(line)));
+}
+
+/// What this program calls itself to those who control it.
+pub(crate) const REMOTE_NAME: &str = "posewire";
 
 /// Sets `stop` after a while, if one is given.
 pub(crate) fn stop_after(stop: &Stop, duration: Option<Duration>) {

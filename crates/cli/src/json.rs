@@ -1,5 +1,7 @@
 //! The JSON that verbs print: one object a line. The field names are an interface, described in docs/json.md.
 
+mod capture;
+mod doctor;
 mod faults;
 mod frame;
 mod recording;
@@ -9,6 +11,8 @@ mod statistics;
 mod stream;
 mod subject;
 
+pub(crate) use capture::CaptureFileRecord;
+pub(crate) use doctor::{DoctorRecord, FindingRecord};
 pub(crate) use frame::{FrameRecord, marker_name};
 pub(crate) use recording::{RecordingFileRecord, RecordingRecord};
 pub(crate) use replay::ReplayRecord;

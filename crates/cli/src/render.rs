@@ -1,8 +1,12 @@
 //! Results as people read them.
 
+mod capture;
+mod doctor;
 mod recording;
 mod server;
 
+pub(crate) use capture::{capture, unread};
+pub(crate) use doctor::print_findings;
 pub(crate) use recording::{losses, recorded, recording, recording_line};
 pub(crate) use server::{delivery, kind, model, unknown_latencies};
 
@@ -10,7 +14,7 @@ use crate::plain::{cut, plural, printable};
 use posewire::faults::FaultCounts;
 use posewire::sink::{ClientProgress, Progress, TargetProgress};
 use posewire::source::Preview;
-use posewire::stats::{SampleCounts, Statistics, StreamStatistics, SubjectStatistics};
+use posewire::stats::{SampleCounts, Statistics, StreamStatistics, SubjectStatistics, Transit};
 use std::fmt::Write;
 use std::time::Duration;
 
@@ -154,6 +158,20 @@ fn subject_table(text: &mut String, of_subject: &SubjectStatistics) {
     }
     if let Some(SampleCounts { partial, gone, .. }) = of_subject.samples.filter(|samples| !samples.are_whole()) {
         _ = writeln!(text, "     of its samples {gone} are gone and {partial} lack a type");
+    }
+    if let Some(transit) = &of_subject.transit {
+        transit_rows(text, transit);
+    }
+}
+
+fn transit_rows(text: &mut String, transit: &Transit) {
+    let clocks = transit.clocks.meaning();
+    match transit.latency {
+        Some(latency) => _ = writeln!(text, "     latency {latency}, {clocks}"),
+        None => _ = writeln!(text, "     latency {clocks}"),
+    }
+    if let Some(variation) = transit.variation {
+        _ = writeln!(text, "     variation {variation} beyond the quickest");
     }
 }
 

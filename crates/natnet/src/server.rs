@@ -23,7 +23,7 @@ use crate::output::{Outputs, Socket};
 use crate::{Error, Message, MessageId, Output, Packet, Version};
 use clients::Clients;
 use encodings::Encodings;
-use send::{frame_packet, model_packet};
+use send::{frame_packet, model_packet, rewritten};
 
 /// A server of any number of versions at once.
 ///
@@ -160,6 +160,27 @@ impl Server {
         let mut result = Ok(());
         for (to, version) in self.destinations() {
             match encodings.of(version, |layout| frame_packet(frame, layout, announce)) {
+                Ok(bytes) => self.outputs.transmit(Socket::Data, to, bytes),
+                Err(error) => result = Err(error),
+            }
+        }
+        result
+    }
+
+    /// Sends a frame that is there as a packet of the server's own version: as it is to all who get that layout, and written anew for
+    /// the others.
+    ///
+    /// # Errors
+    /// Those of [`Message::decode`] and [`Error::TooLarge`] when it cannot be written anew; those who get it as it is have it all
+    /// the same.
+    pub fn relay_frame(&mut self, packet: &[u8]) -> Result<(), Error> {
+        let own = self.options.version;
+        let mut encodings = Encodings::new();
+        // The first of its layout is what all of them get.
+        let _ = encodings.of(own, |_| Ok(packet.into()));
+        let mut result = Ok(());
+        for (to, version) in self.destinations() {
+            match encodings.of(version, |layout| rewritten(packet, own, layout)) {
                 Ok(bytes) => self.outputs.transmit(Socket::Data, to, bytes),
                 Err(error) => result = Err(error),
             }

@@ -323,6 +323,18 @@ pub enum Error {
         /// The feature of Cargo that brings it.
         feature: &'static str,
     },
+    /// A take that is to begin while another is recorded.
+    #[error("{} is being recorded", file.display())]
+    TakeRuns {
+        /// The file of the take that is recorded.
+        file: PathBuf,
+    },
+    /// More targets than a stream can have.
+    #[error("expected at most {limit} targets")]
+    TooManyTargets {
+        /// How many it can have.
+        limit: usize,
+    },
     /// A playback speed that no clock can run at.
     #[error("expected a finite playback speed above 0, found {found}")]
     Speed {

@@ -33,6 +33,7 @@
 pub mod capture;
 pub mod clock;
 mod datagram;
+pub mod doctor;
 pub mod endpoint;
 mod error;
 pub mod faults;
@@ -43,6 +44,7 @@ pub mod net;
 pub mod pacer;
 pub mod queue;
 pub mod recording;
+pub mod remote;
 pub mod replay;
 mod session;
 pub mod sink;

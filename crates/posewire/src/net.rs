@@ -28,6 +28,7 @@ mod udp_send;
 mod udp_serve;
 
 pub use backoff::Backoff;
+pub(crate) use interface::{LocalInterface, list as interfaces};
 pub use resolve::resolve;
 pub(crate) use resolve::resolve_first;
 pub(crate) use route::{LocalAddress, broadcast_addresses, broadcasts_beside, is_own};

@@ -73,6 +73,21 @@ impl Pacer {
         true
     }
 
+    /// Begins the timetable anew at `start`.
+    pub fn restart(&mut self, start: Instant) {
+        self.start = start;
+    }
+
+    /// Moves all deadlines back by the length of a pause.
+    pub fn put_off(&mut self, by: Duration) {
+        self.start = self.start.checked_add(by).unwrap_or(self.start);
+    }
+
+    /// Waits for `duration`, less when asked to stop. Gives whether it was.
+    pub fn pause(&self, duration: Duration) -> bool {
+        self.stop.wait(duration)
+    }
+
     /// Whether a wait would end early.
     pub fn is_stopped(&self) -> bool {
         self.stop.is_stopped()
@@ -163,6 +178,19 @@ mod tests {
             assert!(start.elapsed() >= offset);
         }
         assert_eq!(pacer.lateness().count, 3);
+    }
+
+    #[test]
+    fn a_pause_moves_the_deadlines_and_a_restart_forgets_it() {
+        let start = Instant::now();
+        let mut pacer = pacer(start, 2.0);
+        pacer.put_off(Duration::from_secs(3));
+        assert_eq!(
+            pacer.deadline(Duration::from_secs(2)),
+            Some(start + Duration::from_secs(4))
+        );
+        pacer.restart(start);
+        assert_eq!(pacer.deadline(Duration::ZERO), Some(start));
     }
 
     #[test]

@@ -9,9 +9,11 @@ mod kind;
 mod mxtp;
 mod natnet;
 mod server;
+mod transit;
 
 pub use kind::{DatagramKind, Quirk};
 pub use server::{Clock, Latencies, ModelCounts, ServerStatistics};
+pub use transit::{Clocks, Transit};
 
 pub(crate) use mxtp::{Edge, Tally};
 pub(crate) use natnet::{Link, NatNetTally};
@@ -20,6 +22,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use posewire_motion::{Stamp, Subject, Timecode};
+pub use posewire_mxtp::SampleCounts;
 
 use crate::histogram::Summary;
 
@@ -63,22 +66,10 @@ pub struct SubjectStatistics {
     pub streams: Vec<StreamStatistics>,
     /// What became of its samples; `None` where it shares them with others, as all subjects of a NatNet server do.
     pub samples: Option<SampleCounts>,
+    /// How long its samples were on their way; `None` where that is told of its server.
+    pub transit: Option<Transit>,
     /// How much of it is tracked, where the protocol says; `None` also for one without segments.
     pub tracking: Option<Tracking>,
-}
-
-/// What became of the samples of a subject, each of which has a message of each of its types.
-///
-/// What a stream is missing is in the samples that are gone, or else in partial ones.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct SampleCounts {
-    /// Samples of which something came and that are done.
-    pub done: u64,
-    /// Of these, the ones that lack a type which one of the sixteen samples before them had: a datagram that was sent did
-    /// not arrive, or arrived unreadable.
-    pub partial: u64,
-    /// Samples of which nothing came, in strides: lost on the way, or never sent. Which of the two cannot be known.
-    pub gone: u64,
 }
 
 /// How well a subject is tracked.
@@ -136,13 +127,6 @@ pub struct Counters {
     pub stride: Option<u32>,
     /// Datagrams that deviate from the specification, by how they do; only those that were found, in order.
     pub quirks: Vec<(Quirk, u64)>,
-}
-
-impl SampleCounts {
-    /// Whether all of them came and lack nothing.
-    pub const fn are_whole(&self) -> bool {
-        self.partial == 0 && self.gone == 0
-    }
 }
 
 impl Counters {

@@ -18,22 +18,23 @@ def main():
     witness = Witness(arguments)
     settings = {"hostname": arguments.server, "interface_ip": "127.0.0.1", "port_command": str(arguments.port)}
     client = motioncapture.connect("optitrack", settings)
-    rounds, before, passed_over = 0, None, 0
+    rounds, before, seen_before = 0, None, 0
     while not watch.done.is_set():
         client.waitForNextFrame()
         witness.read()
         for name, body in client.rigidBodies.items():
             position = tuple(float(part) for part in body.position)
             number = numbers.get(position, -1)
-            if before is not None:
+            if before is None:
+                seen_before = len(witness.numbers)
+            else:
                 rounds += number < before
-                passed_over += (number - before - 1) % len(numbers)
             before = number
             turn = [body.rotation.x, body.rotation.y, body.rotation.z, body.rotation.w]
             watch.see(rounds * len(numbers) + number, [(1, position, turn)])
             watch.name(name, watch.take.bones)
-    if witness.has_all(len(watch.frames) + passed_over):
-        watch.passed_over = passed_over
+    if witness.has_all(seen_before + watch.arguments.frames):
+        watch.passes_over = True
     watch.report("4.1")
 
 

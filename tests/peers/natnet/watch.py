@@ -9,7 +9,6 @@ import json
 import os
 import sys
 import threading
-import time
 
 import sockets
 from take import Take
@@ -21,10 +20,10 @@ TOLERANCE_MARKER = 1e-6
 
 
 class Watch:
-    """The frames of a client."""
+    """The frames of a client, which watches until so many have been sent to it by their numbers."""
 
-    patience = 30.0
-    """How long, s, the first frame may take."""
+    patience = 60.0
+    """How long, s, a frame may take."""
 
     def __init__(self):
         self.arguments = arguments()
@@ -32,10 +31,11 @@ class Watch:
         self.frames = []
         self.names = None
         self.errors = []
-        self.passed_over = 0
+        self.passes_over = False
+        """Whether frames that were not seen had come, and the client passed over them."""
         self.begun = threading.Event()
         self.done = threading.Event()
-        self._end = None
+        self._last = None
         self._out, sys.stdout = sys.stdout, open(os.devnull, "w")  # Some clients print every frame.
         threading.excepthook = lambda failure: self.fail(failure.exc_value)
         sys.excepthook = lambda _, error, __: (self.fail(error), self.report(None))
@@ -43,14 +43,13 @@ class Watch:
     def see(self, number, bodies, markers=(), marker_sets=()):
         """Takes a frame: its number, bodies as (id, position, quaternion), labeled markers as (id, position) and
         marker sets as (name, positions)."""
-        now = time.monotonic()
-        if self._end is None:
-            self._end = now + self.arguments.seconds
+        if self._last is None:
+            self._last = number + self.arguments.frames - 1
             sockets.widen()
             self.begun.set()
-        if not self.done.is_set():
+        if number <= self._last and not self.done.is_set():
             self.frames.append((number, bodies, markers, marker_sets))
-        if now >= self._end:
+        if number >= self._last:
             self.done.set()
 
     def name(self, subject, bones):
@@ -64,12 +63,15 @@ class Watch:
         self.done.set()
 
     def wait(self):
-        """Waits until frames have come for the time asked for."""
-        self.done.wait(self.patience + self.arguments.seconds)
+        """Waits until all frames have come, or none has for a long time."""
+        seen = -1
+        while not self.done.wait(self.patience) and seen < len(self.frames):
+            seen = len(self.frames)
 
     def report(self, version):
         """Prints the report and ends the process, whatever the client's threads do."""
         dropped = sockets.dropped()
+        unseen = self.arguments.frames - len({frame[0] for frame in self.frames})
         numbers = [frame[0] for frame in self.frames]
         pairs = list(zip(numbers, numbers[1:]))
         steps = [after - before for before, after in pairs]
@@ -79,8 +81,8 @@ class Watch:
             "frames": len(numbers),
             "first": min(numbers, default=None),
             "last": max(numbers, default=None),
-            "passed_over": self.passed_over,
-            "missing": sum(step - 1 for step in steps if step > 1) - self.passed_over,
+            "passed_over": unseen if self.passes_over else 0,
+            "missing": 0 if self.passes_over else unseen,
             "dropped": dropped,
             "gaps": [pair for pair, step in zip(pairs, steps) if step > 1],
             "repeated": sum(step < 1 for step in steps),
@@ -125,7 +127,7 @@ class Watch:
 def arguments():
     parser = argparse.ArgumentParser()
     parser.add_argument("take", help="the MVNX file that is streamed in a loop")
-    parser.add_argument("--seconds", type=float, required=True)
+    parser.add_argument("--frames", type=int, required=True, help="how many to watch, by their numbers")
     parser.add_argument("--server", default="127.0.0.1")
     parser.add_argument("--port", type=int, required=True, help="the server's command port")
     parser.add_argument("--data-port", type=int, default=1511)

@@ -43,10 +43,7 @@ pub(crate) struct Capture {
 impl Capture {
     /// The protocol that was named.
     pub(crate) fn protocol(&self) -> Option<posewire::capture::Protocol> {
-        self.forced.map(|protocol| match protocol {
-            Protocol::Mxtp => posewire::capture::Protocol::Mxtp,
-            Protocol::Natnet => posewire::capture::Protocol::NatNet,
-        })
+        self.forced.map(Into::into)
     }
 
     /// The options that were given.

@@ -59,3 +59,12 @@ impl Protocol {
         }
     }
 }
+
+impl From<Protocol> for posewire::capture::Protocol {
+    fn from(protocol: Protocol) -> Self {
+        match protocol {
+            Protocol::Mxtp => Self::Mxtp,
+            Protocol::Natnet => Self::NatNet,
+        }
+    }
+}

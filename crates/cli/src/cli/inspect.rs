@@ -1,9 +1,10 @@
 //! The arguments of `posewire inspect`.
 
+use super::explain::Protocol;
 use clap::Args;
 use std::path::PathBuf;
 
-/// Say what a take or a recording holds, and with --verify whether a take agrees with itself.
+/// Say what a take, a recording or a capture holds, and with --verify whether a take agrees with itself.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 What --verify checks, and beyond what it says \"look at this\":
@@ -23,11 +24,12 @@ Examples:
   posewire inspect take.mvnx
   posewire inspect take.mvnx --verify
   posewire inspect take.mcap
+  posewire inspect take.pcapng
   posewire inspect cut-off.mcap --recover -o whole.mcap
   posewire inspect cut-off.mvnx --salvage
   posewire inspect take.mvnx.gz --json")]
 pub(crate) struct Inspect {
-    /// An .mvnx or .mvnx.gz file, or an .mcap file.
+    /// An .mvnx or .mvnx.gz file, an .mcap file, or packets captured as .pcap or .pcapng.
     pub(crate) file: PathBuf,
 
     /// Check also whether the take agrees with itself: angles, quaternions, gaps, dropouts, the clock, velocities.
@@ -41,6 +43,10 @@ pub(crate) struct Inspect {
     /// Use a damaged take up to the damage.
     #[arg(long)]
     pub(crate) salvage: bool,
+
+    /// Of a capture of packets: what its UDP datagrams are; told by their content when left out.
+    #[arg(long = "protocol", value_enum, ignore_case = true)]
+    pub(crate) forced: Option<Protocol>,
 
     #[command(flatten)]
     pub(crate) recovery: Recovery,

@@ -1,8 +1,10 @@
 //! The arguments of `posewire record`.
 
+use super::remote::remote;
 use super::value::seconds;
 use super::view::Beside;
 use clap::Args;
+use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -13,6 +15,7 @@ Examples:
   posewire record mxtp://0.0.0.0 -o take.mcap                 until Ctrl-C
   posewire record mxtp://0.0.0.0 natnet://10.0.0.7 -o take.mcap --duration 60
   posewire record mxtp+tcp://0.0.0.0 -o take.mcap --split-size 500
+  posewire record mxtp://0.0.0.0 -o takes --remote 6004       takes that other programs begin and end
 
 What has come is in the file a tenth of a second later. When this program or the machine dies, it can be
 read up to there, and posewire inspect take.mcap --recover completes it. Foxglove and other viewers of
@@ -22,7 +25,7 @@ pub(crate) struct Record {
     #[arg(value_name = "URL", required = true)]
     pub(crate) urls: Vec<String>,
 
-    /// The file to write; one that is there is left alone.
+    /// The file to write; one that is there is left alone. With --remote, the folder for the takes.
     #[arg(long, short, value_name = "FILE")]
     pub(crate) output: PathBuf,
 
@@ -37,6 +40,11 @@ pub(crate) struct Record {
     /// Replace the file if it is there.
     #[arg(long)]
     pub(crate) overwrite: bool,
+
+    /// Record takes, which begin and end by the commands of MVN's remote control: on this UDP port of this machine, or at
+    /// ADDRESS:PORT; MVN's is 6004.
+    #[arg(long, value_name = "PORT", value_parser = remote)]
+    pub(crate) remote: Option<SocketAddr>,
 
     #[command(flatten)]
     pub(crate) beside: Beside,

@@ -34,7 +34,7 @@ pub(crate) struct Replay {
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     pub(crate) duration: Option<Duration>,
 
-    /// Make these faults on purpose; as stream has it, for MXTP.
+    /// Make these faults on purpose; as stream has it.
     #[arg(long, value_name = "PLAN")]
     pub(crate) faults: Option<String>,
 

@@ -1,9 +1,11 @@
 //! The arguments of `posewire stream`.
 
 use super::capture::Capture;
+use super::remote::remote;
 use super::value::seconds;
 use super::view::Beside;
 use clap::{Args, ValueEnum};
+use std::net::SocketAddr;
 use std::time::Duration;
 
 /// Send a take, a walker or a live stream as MVN's Network Streamer would, or as Motive.
@@ -18,6 +20,7 @@ Examples:
   posewire stream take.mvnx --to natnet://0.0.0.0            be Motive to NatNet clients
   posewire stream take.mvnx --to \"natnet://0.0.0.0?mode=multicast&interface=eth0\"
   posewire stream natnet://10.0.0.7 --to mxtp://10.0.0.5     Motive's skeletons as MVN's characters
+  posewire stream take.mvnx --remote 6004                    paused and moved in by other programs
   posewire stream synthetic:walk --faults loss=1%,reorder=1%,reset@10s,seed=7   with what goes wrong
 
 A take begins when somebody has connected, unless there is a target to which nobody has to connect.
@@ -64,6 +67,12 @@ pub(crate) struct Stream {
     /// Shares are of all datagrams, times are since the stream began. The same seed makes the same faults.
     #[arg(long, value_name = "PLAN")]
     pub(crate) faults: Option<String>,
+
+    /// Take the commands of MVN's remote control on this UDP port of this machine, or at ADDRESS:PORT; MVN's is 6004.
+    ///
+    /// They pause the stream, move in it, and add and remove MXTP targets. A take then waits at its end for more.
+    #[arg(long, value_name = "PORT", value_parser = remote)]
+    pub(crate) remote: Option<SocketAddr>,
 
     /// Begin at once, also when nobody has connected yet.
     #[arg(long)]

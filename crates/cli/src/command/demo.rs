@@ -44,6 +44,6 @@ pub(super) fn run(arguments: &Demo) -> anyhow::Result<End> {
     say(crate::render::stream_summary(&progress, unsent));
     match end? {
         End::Done => Ok(End::with_lost(progress.lost() + unsent)),
-        lost @ End::LostData => Ok(lost),
+        end => Ok(end),
     }
 }

@@ -1,5 +1,6 @@
 //! `posewire inspect`: what a take holds, and whether it agrees with itself.
 
+mod capture;
 mod contents;
 mod input;
 mod recording;
@@ -26,6 +27,10 @@ pub(super) fn run(arguments: &Inspect) -> anyhow::Result<End> {
     }
     recording::refuse(arguments)?;
     let stop = context::stop_on_interrupt()?;
+    if capture::is_one(&arguments.file) {
+        return capture::run(arguments, &stop);
+    }
+    capture::refuse(arguments)?;
     let mut file = TakeFile::open(&arguments.file, arguments.salvage)?;
     let survey = read(&mut file, &stop, arguments.verify);
     end_progress();

@@ -1,5 +1,7 @@
 //! `posewire record`: every datagram of live sources, and the poses in them, into a file.
 
+mod takes;
+
 use super::End;
 use super::monitor::endpoints_of;
 use crate::browser::Browser;
@@ -18,6 +20,9 @@ use std::time::{Duration, Instant};
 pub(super) fn run(arguments: &Record) -> anyhow::Result<End> {
     let stop = context::stop_on_interrupt()?;
     let sources = open(&arguments.urls)?;
+    if let Some(address) = arguments.remote {
+        return takes::run(arguments, address, sources, &stop);
+    }
     let endpoints = endpoints_of(&sources);
     let options = RecordOptions {
         split: arguments.split_size.map(|megabytes| megabytes * MEGABYTE),
@@ -121,12 +126,15 @@ impl Shouts {
 fn tell_of_silence(progress: &RecordProgress) {
     for source in &progress.sources {
         if source.datagrams == 0 && !matches!(source.endpoint, Endpoint::Synthetic(_)) {
-            say(format_args!(
-                "nothing has come from {} yet: posewire monitor {0} says what to check",
-                source.endpoint
-            ));
+            say_silent(&source.endpoint);
         }
     }
+}
+
+fn say_silent(endpoint: &Endpoint) {
+    say(format_args!(
+        "nothing has come from {endpoint} yet: posewire monitor {endpoint} says what to check"
+    ));
 }
 
 /// A recording that could not be written any more has lost data; it did not fail before it began.

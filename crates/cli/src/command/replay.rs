@@ -7,7 +7,7 @@ use crate::cli::Replay;
 use crate::context::{self, end_progress, say, show_progress};
 use crate::plain::{grouped, plural};
 use crate::{json, render};
-use posewire::capture::{CapturedSource, Counts};
+use posewire::capture::CapturedSource;
 use posewire::endpoint::Endpoint;
 use posewire::faults::FaultPlan;
 use posewire::replay::{self, ReplayOptions, Replayed};
@@ -69,7 +69,7 @@ fn announce(arguments: &Replay, replay: &replay::Replay) {
     for target in &progress.targets {
         say(format_args!("  to {}", target.endpoint));
     }
-    if let Some(words) = unread(&replay.survey().counts) {
+    if let Some(words) = render::unread(&replay.survey().counts) {
         say(format_args!("of the capture could not be used: {words}"));
     }
 }
@@ -81,35 +81,6 @@ fn announce_source(source: &CapturedSource) {
         "  {} {}: {datagrams} in {seconds:.3} s",
         source.number, source.name
     ));
-}
-
-/// What of a capture could not be used, in words.
-pub(super) fn unread(counts: &Counts) -> Option<String> {
-    let kinds = [
-        (
-            counts.unknown_link,
-            "packet of an unknown link",
-            "packets of an unknown link",
-        ),
-        (counts.malformed, "malformed packet", "malformed packets"),
-        (
-            counts.cut,
-            "packet cut short by the capture",
-            "packets cut short by the capture",
-        ),
-        (
-            counts.incomplete,
-            "packet without all of its fragments",
-            "packets without all of their fragments",
-        ),
-        (counts.gaps, "gap in a TCP stream", "gaps in TCP streams"),
-        (counts.skipped_bytes, "byte of no datagram", "bytes of no datagram"),
-    ];
-    let words = kinds.into_iter().filter(|(count, ..)| *count > 0);
-    let words: Vec<_> = words
-        .map(|(count, one, many)| format!("{} {}", grouped(count), if count == 1 { one } else { many }))
-        .collect();
-    (!words.is_empty()).then(|| words.join(", "))
 }
 
 /// Replays on a thread of its own and shows how far it is.

@@ -2,6 +2,7 @@
 
 mod peers;
 pub(super) mod refuse;
+mod remote;
 mod sinks;
 mod types;
 
@@ -48,6 +49,9 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
         say(format_args!("faults on purpose: {plan}"));
     }
     let browser = Browser::beside(arguments.beside.view, &endpoints_of(&sources))?;
+    if let Some(address) = arguments.remote {
+        remote::serve(address, &sources, &sinks, &stop)?;
+    }
     let mut peers = Peers::of(&progress.read());
     if !is_live && !arguments.no_wait && !sinks.is_ready() {
         say("waiting for somebody to connect");

@@ -1,7 +1,7 @@
 //! How a stream is doing that we receive.
 
 use super::{Spread, rounded};
-use posewire::stats::{SampleCounts, Statistics, StreamStatistics};
+use posewire::stats::{SampleCounts, Statistics, StreamStatistics, SubjectStatistics, Transit};
 use posewire_motion::Subject;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -61,6 +61,8 @@ pub(crate) struct StatisticsRecord<'a> {
     kernel_dropped: u64,
     #[serde(skip_serializing_if = "Option::is_none")]
     samples: Option<SamplesRecord>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    transit_ms: Option<TransitRecord>,
     datagrams: u64,
     quirks: BTreeMap<&'static str, u64>,
     interval_ms: Spread,
@@ -76,11 +78,27 @@ struct SamplesRecord {
     gone: u64,
 }
 
-impl SamplesRecord {
-    fn of(all: &Statistics, subject: &Arc<Subject>) -> Option<Self> {
-        let found = all.subjects.iter().find(|of| Arc::ptr_eq(&of.subject, subject))?;
-        let SampleCounts { done, partial, gone } = found.samples?;
-        Some(Self { done, partial, gone })
+impl From<SampleCounts> for SamplesRecord {
+    fn from(SampleCounts { done, partial, gone }: SampleCounts) -> Self {
+        Self { done, partial, gone }
+    }
+}
+
+/// How long the samples of a character were on their way.
+#[derive(Serialize)]
+struct TransitRecord {
+    variation: Option<Spread>,
+    latency: Option<Spread>,
+    clocks: &'static str,
+}
+
+impl From<Transit> for TransitRecord {
+    fn from(transit: Transit) -> Self {
+        Self {
+            variation: transit.variation.map(Into::into),
+            latency: transit.latency.map(Into::into),
+            clocks: transit.clocks.name(),
+        }
     }
 }
 
@@ -90,9 +108,14 @@ pub(crate) fn statistics(all: &Statistics) -> impl Iterator<Item = StatisticsRec
     streams.map(|(subject, stream)| StatisticsRecord::new(all, subject, stream))
 }
 
+fn of_subject<'a>(all: &'a Statistics, subject: &Arc<Subject>) -> Option<&'a SubjectStatistics> {
+    all.subjects.iter().find(|of| Arc::ptr_eq(&of.subject, subject))
+}
+
 impl<'a> StatisticsRecord<'a> {
     fn new(all: &'a Statistics, subject: Option<&'a Arc<Subject>>, stream: &StreamStatistics) -> Self {
         let counters = &stream.counters;
+        let of_subject = subject.and_then(|subject| of_subject(all, subject));
         let server = all.server.as_ref().map_or("", |server| &server.name);
         Self {
             kind: "statistics",
@@ -111,7 +134,8 @@ impl<'a> StatisticsRecord<'a> {
             malformed: counters.malformed,
             incomplete: counters.incomplete,
             kernel_dropped: all.kernel_dropped,
-            samples: subject.and_then(|subject| SamplesRecord::of(all, subject)),
+            samples: of_subject.and_then(|of| of.samples).map(Into::into),
+            transit_ms: of_subject.and_then(|of| of.transit).map(Into::into),
             datagrams: counters.datagrams,
             quirks: counters
                 .quirks

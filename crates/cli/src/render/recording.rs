@@ -115,7 +115,7 @@ pub(crate) fn recording(file: &Path, bytes: u64, survey: &Survey) -> String {
         source.senders.iter().for_each(|sender| sender_row(&mut text, sender));
         if source.repeated > 0 {
             let repeated = plural(source.repeated, "description");
-            row(&mut text, "", &format!("{repeated} repeated from an earlier file"));
+            row(&mut text, "", &format!("{repeated} repeated from before"));
         }
     }
     for subject in &survey.subjects {
@@ -152,14 +152,14 @@ fn sender_row(text: &mut String, sender: &SenderSurvey) {
     row(text, "", &value);
 }
 
-fn row(text: &mut String, label: &str, value: &str) {
+pub(super) fn row(text: &mut String, label: &str, value: &str) {
     _ = writeln!(text, "{}", format!("  {label:<12} {value}").trim_end());
 }
 
-fn seconds(span: Option<(Stamp, Stamp)>) -> f64 {
+pub(super) fn seconds(span: Option<(Stamp, Stamp)>) -> f64 {
     span.map_or(0.0, |(first, last)| last.since(first).as_secs_f64())
 }
 
-fn megabytes(bytes: u64) -> String {
+pub(super) fn megabytes(bytes: u64) -> String {
     format!("{:.1} MB", bytes as f64 / 1e6)
 }

@@ -213,6 +213,7 @@ mod tests {
                 timecode: None,
                 streams: Vec::new(),
                 samples: None,
+                transit: None,
                 tracking: Some(tracking),
             };
             let mut text = String::new();

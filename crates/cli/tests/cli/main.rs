@@ -3,6 +3,7 @@
 mod convert;
 mod convert_arguments;
 mod demo;
+mod doctor;
 mod explain;
 mod faults;
 mod inspect;
@@ -15,6 +16,7 @@ mod page;
 mod program;
 mod record;
 mod refusals;
+mod remote;
 mod replay;
 mod stream;
 mod takes;

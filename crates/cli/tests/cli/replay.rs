@@ -99,6 +99,44 @@ fn a_capture_is_monitored_as_if_it_came_now() {
 }
 
 #[test]
+fn a_capture_is_inspected() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("take.pcapng");
+    write_capture(&path, 40, 2);
+    let ended = posewire(folder.path(), &["inspect", "take.pcapng", "--json"], b"");
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    let object = objects(&ended.out, "packets").remove(0);
+    assert_documented(&object, "packets", &[]);
+    assert_eq!((&object["packets"], &object["datagrams"]), (&40.into(), &40.into()));
+    assert_eq!(
+        (&object["format"], &object["duration_s"]),
+        (&"pcapng".into(), &0.156.into())
+    );
+    assert_eq!(object["first_ns"], 1_700_000_000_000_000_000_i64);
+    let second = &object["sources"][1];
+    assert_eq!(
+        (&second["endpoint"], &second["protocol"]),
+        (&"mxtp://10.0.0.3:9763".into(), &"mxtp".into())
+    );
+    let ended = posewire(folder.path(), &["inspect", "take.pcapng"], b"");
+    let expected =
+        "  source 1     mxtp://10.0.0.3:9763\n               mxtp: 20 datagrams, 0.0 MB, from 0.004 s on for 0.152 s\n";
+    assert!(ended.out.contains(expected), "{}", ended.out);
+
+    // Cut off, and with nothing that posewire speaks.
+    let bytes = std::fs::read(&path).unwrap();
+    std::fs::write(&path, &bytes[..bytes.len() - 10]).unwrap();
+    let ended = posewire(folder.path(), &["inspect", "take.pcapng"], b"");
+    assert!(ended.out.contains("  ends with    "), "{}", ended.out);
+    write_capture(&folder.path().join("take.pcap"), 1, 1);
+    let ended = posewire(folder.path(), &["inspect", "take.pcap", "--protocol", "natnet"], b"");
+    assert!(ended.out.contains("natnet: "), "{}", ended.out);
+    let ended = posewire(folder.path(), &["inspect", "take.pcapng", "--verify"], b"");
+    assert_eq!(ended.code, Some(2), "{}", ended.err);
+    assert!(ended.err.contains("--verify is for takes"), "{}", ended.err);
+}
+
+#[test]
 fn all_sources_are_monitored_and_one_when_it_is_named() {
     let folder = tempfile::tempdir().unwrap();
     write_capture(&folder.path().join("take.pcapng"), 4, 2);

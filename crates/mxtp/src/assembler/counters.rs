@@ -54,6 +54,13 @@ pub struct SampleCounts {
     pub gone: u64,
 }
 
+impl SampleCounts {
+    /// Whether all of them came and lack nothing.
+    pub const fn are_whole(&self) -> bool {
+        self.partial == 0 && self.gone == 0
+    }
+}
+
 /// How often each quirk was found.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct QuirkCounts([u64; Quirk::ALL.len()]);

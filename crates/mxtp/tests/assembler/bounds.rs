@@ -89,6 +89,27 @@ fn parts_of_a_sample_are_bounded() {
 }
 
 #[test]
+fn parts_that_just_fit_are_kept() {
+    let mut receiver = Receiver::new();
+    let segment = QuaternionSegment::new(SegmentId(1), [0.0; 3], [1.0, 0.0, 0.0, 0.0]);
+    let mut part = |index, segments: usize| {
+        let header = Header::rev_j(MessageType::QUATERNION, 0, 0).with_counter(DatagramCounter::part(index, false));
+        let mut bytes = Vec::new();
+        Datagram::new(header, Body::Quaternion(&vec![segment; segments]))
+            .unwrap()
+            .encode(&mut bytes);
+        receiver.feed([&bytes[..]]);
+        receiver.assembler.buffered()
+    };
+    for index in 0..35 {
+        part(index, 227);
+    }
+    assert_eq!(part(35, 221), 35 * (24 + 227 * 32));
+    assert_eq!(part(35, 220), 256 << 10);
+    assert_eq!(part(36, 0), 256 << 10);
+}
+
+#[test]
 fn events_that_nobody_takes_are_dropped_and_counted() {
     let (mut assembler, mut sender) = (Assembler::new(), Sender::new("02"));
     let sample = sender.sample(0);

@@ -1,6 +1,7 @@
 //! What is counted of each stream.
 
 use crate::stream::{Receiver, Sender};
+use posewire_motion::Skeleton;
 use posewire_mxtp::{Datagram, Event, Header, MessageType, Quirk, SampleCounts};
 
 const POSE: MessageType = MessageType::QUATERNION;
@@ -191,9 +192,21 @@ fn malformed_datagrams_are_counted_by_kind_and_by_stream() {
     let mut cut = Header::rev_j(POSE, 0, 0).encode().to_vec();
     cut.extend([0; 33]);
     receiver.feed([&b"MXTP"[..], &b"GARBAGE GARBAGE GARBAGE GARBAGE"[..], &cut[..]]);
+    receiver.feed([&b"MXTP1x sixteen more bytes"[..]]);
+    let scale = Header::rev_j(MessageType::SCALE, 0, 0).encode();
+    receiver.feed([&scale[..], &[&scale[..], &[0, 0, 0, 9]].concat()]);
     let kinds: Vec<_> = receiver.assembler.malformed().collect();
-    assert_eq!(kinds, [("magic", 1), ("payload-size", 1), ("short-header", 1)]);
+    let names = [
+        "count",
+        "magic",
+        "payload-size",
+        "short-header",
+        "truncated",
+        "type-digits",
+    ];
+    assert_eq!(kinds, names.map(|name| (name, 1)));
     assert_eq!(receiver.counters(POSE).malformed, 1);
+    assert_eq!(receiver.counters(MessageType::SCALE).malformed, 2);
     assert!(matches!(receiver.events[2], Event::Malformed { header: Some(_), .. }));
 }
 
@@ -212,4 +225,34 @@ fn quirks_are_counted_once_a_datagram() {
     let quirks: Vec<_> = counters.quirks.iter().collect();
     assert_eq!(quirks, [(Quirk::SegmentIdsFromZero, 5)]);
     assert_eq!(receiver.frames()[4].position, sender.frame.position);
+}
+
+#[test]
+fn quirks_that_show_when_a_message_is_read_are_counted_too() {
+    for split in [None, Some(400)] {
+        let (mut receiver, mut poses) = (Receiver::new(), Sender::new("02"));
+        let mut with_a_prop =
+            Sender::with("01", |options| options.split = split).skeleton(Skeleton::standard(1, false));
+        for number in 0..10 {
+            receiver.feed(poses.sample(number).iter());
+            receiver.feed(with_a_prop.sample(number).iter());
+        }
+        let counters = receiver.counters(MessageType::EULER);
+        let quirks: Vec<_> = counters.quirks.iter().collect();
+        assert_eq!(quirks, [(Quirk::SegmentIds, 10)]);
+        assert_eq!(receiver.counters(POSE).quirks.iter().count(), 0);
+    }
+}
+
+#[test]
+fn quirks_of_a_message_that_does_not_become_whole_are_counted() {
+    let (mut receiver, mut poses) = (Receiver::new(), Sender::new("02"));
+    let mut with_a_prop =
+        Sender::with("01", |options| options.split = Some(400)).skeleton(Skeleton::standard(1, false));
+    receiver.feed(poses.sample(0).iter());
+    receiver.feed(with_a_prop.sample(0).iter().skip(1));
+    receiver.finish();
+    let counters = receiver.counters(MessageType::EULER);
+    let quirks: Vec<_> = counters.quirks.iter().collect();
+    assert_eq!((counters.incomplete, quirks), (1, vec![(Quirk::SegmentIds, 1)]));
 }

@@ -1,7 +1,9 @@
 //! Who the characters are, and what happens when that changes.
 
 use crate::stream::{PERIOD, Receiver, Sender, rev_j};
-use posewire_motion::{Segment, SegmentKind, Skeleton};
+use posewire_motion::{DVec3, Segment, SegmentKind, Skeleton};
+use posewire_mxtp::Header;
+use posewire_mxtp::motion::EncoderOptions;
 use std::time::Duration;
 
 fn object(segments: usize) -> Skeleton {
@@ -61,6 +63,20 @@ fn a_new_name_starts_a_new_description() {
 }
 
 #[test]
+fn a_new_name_counts_for_the_samples_that_are_open() {
+    let (mut receiver, mut sender) = (Receiver::new(), Sender::new("02,20,12"));
+    receiver.feed(sender.description().iter());
+    receiver.feed_samples(&mut sender, 0..5);
+    let sample = sender.sample(5);
+    receiver.feed(sample.iter().take(1));
+    sender.rename("Grace");
+    receiver.feed(sender.description().iter());
+    receiver.feed(sample.iter().skip(1));
+    let names = receiver.frames().into_iter().map(|frame| frame.subject.name.as_str());
+    assert_eq!(names.collect::<Vec<_>>()[4..], ["Ada", "Grace"]);
+}
+
+#[test]
 fn a_prop_that_is_picked_up_starts_a_new_description() {
     for change in [|_: &mut _| {}, rev_j] {
         let mut receiver = Receiver::new();
@@ -113,6 +129,59 @@ fn a_segment_that_is_not_tracked_for_a_while_stays_a_segment() {
         receiver.feed_samples(&mut sender, 3..6);
         assert_eq!(receiver.subjects().len(), 1);
         assert_eq!(receiver.frames()[5].position, sender.frame.position);
+    }
+}
+
+#[test]
+fn a_segment_that_is_left_out_of_the_only_pose_stays_a_segment() {
+    for (types, record) in [("01", 28), ("02", 32), ("05", 32), ("21", 40), ("22", 44)] {
+        let (mut receiver, mut sender) = (Receiver::new(), Sender::with(types, rev_j));
+        let known = vec![Some(DVec3::ZERO); 23];
+        sender.frame.velocity = known.clone();
+        sender.frame.acceleration = known.clone();
+        sender.frame.angular_velocity = known.clone();
+        sender.frame.angular_acceleration = known;
+        for number in 0..3 {
+            let mut bytes = sender.sample(number).iter().next().unwrap().to_vec();
+            bytes.drain(Header::SIZE + 5 * record..Header::SIZE + 6 * record);
+            let mut header = Header::decode(&bytes).unwrap();
+            header.items -= 1;
+            bytes[..Header::SIZE].copy_from_slice(&header.encode());
+            receiver.feed([&bytes[..]]);
+        }
+        assert_eq!(receiver.subjects().len(), 1, "{types}");
+        let segments = &receiver.subjects()[0].skeleton.segments;
+        assert_eq!((segments.len(), segments[22].name.as_str()), (23, "LeftToe"), "{types}");
+    }
+}
+
+#[test]
+fn ids_that_say_nothing_do_not_say_how_many_segments_there_are() {
+    let mut receiver = Receiver::new();
+    let mut sender = Sender::with("02", rev_j).skeleton(Skeleton::standard(1, false));
+    for number in 0..3 {
+        let mut bytes = sender.sample(number).iter().next().unwrap().to_vec();
+        bytes[Header::SIZE + 23 * 32 + 3] = 25;
+        receiver.feed([&bytes[..]]);
+    }
+    assert_eq!(receiver.subjects()[0].skeleton.segments.len(), 24);
+    assert_eq!(receiver.frames()[1].position, sender.frame.position);
+}
+
+#[test]
+fn joint_angles_do_not_say_how_many_segments_there_are() {
+    for split in [None, Some(300)] {
+        for change in [|_: &mut _| {}, rev_j] {
+            let change = |options: &mut EncoderOptions| {
+                change(options);
+                options.split = split;
+            };
+            let (mut receiver, mut sender) = (Receiver::new(), Sender::with("20", change));
+            receiver.feed_samples(&mut sender, 0..3);
+            assert_eq!(receiver.subjects().len(), 1);
+            assert_eq!(receiver.subjects()[0].skeleton.segments.len(), 23);
+            assert_eq!(receiver.frames().len(), 3);
+        }
     }
 }
 

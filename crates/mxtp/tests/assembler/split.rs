@@ -1,8 +1,8 @@
 //! Messages that come in several datagrams.
 
-use crate::stream::{Receiver, Sender, rev_j};
+use crate::stream::{PERIOD, Receiver, Sender, rev_j};
 use posewire_motion::Skeleton;
-use posewire_mxtp::MessageType;
+use posewire_mxtp::{Header, MessageType, Quirk};
 use std::time::Duration;
 
 /// A sender with fingers whose pose takes several datagrams.
@@ -123,6 +123,30 @@ fn an_old_header_leaves_the_segment_count_to_the_parts_together() {
             .all(|frame| frame.position == sender.frame.position)
     );
     assert_eq!(receiver.frames()[2].subject.skeleton.segments.len(), 63);
+}
+
+#[test]
+fn parts_with_ids_from_zero_are_told_by_their_place_in_the_message() {
+    let (mut receiver, mut sender) = (Receiver::new(), Sender::with("02", |options| options.split = Some(400)));
+    for number in 0..3 {
+        let sample = sender.sample(number);
+        let parts = sample.iter().map(|part| {
+            let mut part = part.to_vec();
+            for record in part[Header::SIZE..].chunks_mut(32) {
+                record[3] -= 1;
+            }
+            part
+        });
+        let parts: Vec<_> = parts.collect();
+        assert_eq!(parts.len(), 3);
+        receiver.feed(parts.iter().map(Vec::as_slice));
+        receiver.wait(PERIOD);
+    }
+    for frame in receiver.frames() {
+        assert_eq!(frame.position, sender.frame.position);
+    }
+    let quirks = receiver.counters(MessageType::QUATERNION).quirks;
+    assert_eq!(quirks.iter().collect::<Vec<_>>(), [(Quirk::SegmentIdsFromZero, 3 * 3)]);
 }
 
 #[test]

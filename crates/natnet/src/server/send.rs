@@ -103,6 +103,15 @@ pub(super) fn frame_packet(frame: &Frame, layout: Version, announce: bool) -> En
     Ok(bytes.into())
 }
 
+/// The packet of a frame in another layout.
+pub(super) fn rewritten(packet: &[u8], own: Version, layout: Version) -> Encoded {
+    let (message, _) = Message::decode(own, packet)?;
+    match message {
+        Message::Frame(frame) => frame_packet(&frame, layout, false),
+        _ => Ok(packet.into()),
+    }
+}
+
 /// The bits of a frame are the last but the number that ends it.
 fn set_model_changed(packet: &mut [u8]) {
     if let [.., low, _, _, _, _, _] = packet {

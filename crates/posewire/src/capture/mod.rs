@@ -67,6 +67,29 @@ pub struct CaptureOptions {
     pub protocol: Option<Protocol>,
 }
 
+/// The kind of file that a capture is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Format {
+    /// A recording.
+    Mcap,
+    /// What libpcap writes.
+    Pcap,
+    /// What Wireshark writes.
+    PcapNg,
+}
+
+impl Format {
+    /// How the names of such files end, without the dot.
+    pub const fn ending(self) -> &'static str {
+        match self {
+            Self::Mcap => "mcap",
+            Self::Pcap => "pcap",
+            Self::PcapNg => "pcapng",
+        }
+    }
+}
+
 /// A datagram of a capture, and where it belongs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Captured {
@@ -155,6 +178,14 @@ impl Capture {
             damage: None,
             ended: false,
         })
+    }
+
+    /// The kind of file that it is.
+    pub fn format(&self) -> Format {
+        match &self.kind {
+            Kind::Packets(packets) => packets.format(),
+            Kind::Recording(_) => Format::Mcap,
+        }
     }
 
     /// The files that are read, in their order: several of a recording that was split.

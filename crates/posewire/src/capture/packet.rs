@@ -1,5 +1,6 @@
 //! Packets of a capture file, whichever kind of file it is.
 
+use super::Format;
 use super::input::Input;
 use super::pcap::Pcap;
 use super::pcapng::PcapNg;
@@ -40,6 +41,13 @@ pub(super) enum Next {
 }
 
 impl Packets {
+    pub(super) fn format(&self) -> Format {
+        match self.kind {
+            Kind::Pcap(_) => Format::Pcap,
+            Kind::PcapNg(_) => Format::PcapNg,
+        }
+    }
+
     /// Reads the file's header; `None` when it is no capture file.
     pub(super) fn open(mut input: Input) -> io::Result<Option<Self>> {
         let Ok(magic) = input.array()? else {

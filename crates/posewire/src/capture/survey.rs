@@ -1,6 +1,7 @@
 //! What a capture holds, from reading it once.
 
-use super::{Capture, CaptureOptions, Captured, Counts, Protocol};
+use super::{Capture, CaptureOptions, Captured, Counts, Format, Protocol};
+use crate::stop::Stop;
 use crate::{Error, Result, Wire};
 use posewire_motion::Stamp;
 use std::path::{Path, PathBuf};
@@ -8,6 +9,8 @@ use std::path::{Path, PathBuf};
 /// What a capture holds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Survey {
+    /// The kind of file.
+    pub format: Format,
     /// The files that were read: several of a recording that was split.
     pub files: Vec<PathBuf>,
     /// Its sources, by number. Some may be without a datagram.
@@ -41,27 +44,46 @@ impl Survey {
     /// # Errors
     /// Those of [`Capture::open`], [`Error::Read`] when reading fails later, [`Error::NoDatagrams`] when there is none.
     pub fn of(path: &Path, options: &CaptureOptions) -> Result<Self> {
+        let survey = Self::of_any(path, options, &Stop::new())?;
+        if survey.heard().next().is_some() {
+            return Ok(survey);
+        }
+        Err(Error::NoDatagrams {
+            path: path.to_owned(),
+            found: nothing(&survey.counts),
+        })
+    }
+
+    /// Reads a capture to its end or until `stop` is set, also one without a datagram that posewire speaks.
+    ///
+    /// # Errors
+    /// Those of [`Capture::open`], [`Error::Read`] when reading fails later, [`Error::Stopped`].
+    pub fn of_any(path: &Path, options: &CaptureOptions, stop: &Stop) -> Result<Self> {
         let mut capture = Capture::open(path, options)?;
         let mut sources = Vec::new();
         for captured in capture.by_ref() {
             note(&mut sources, &captured?);
-        }
-        let counts = capture.counts();
-        if sources.iter().all(|source| source.datagrams == 0) {
-            return Err(Error::NoDatagrams {
-                path: path.to_owned(),
-                found: nothing(&counts),
-            });
+            if stop.is_stopped() {
+                let what = "a capture was read".to_owned();
+                return Err(Error::Stopped { what });
+            }
         }
         for (source, name) in sources.iter_mut().zip(capture.sources()) {
             source.name.clone_from(name);
         }
         Ok(Self {
+            format: capture.format(),
             files: capture.files().to_vec(),
             sources,
-            counts,
+            counts: capture.counts(),
             damage: capture.damage().map(str::to_owned),
         })
+    }
+
+    /// When the first datagram of all came and the last.
+    pub fn span(&self) -> Option<(Stamp, Stamp)> {
+        let spans = self.sources.iter().filter_map(|source| source.span);
+        spans.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
     }
 
     /// The sources that have datagrams.
@@ -157,6 +179,14 @@ fn nothing(counts: &Counts) -> String {
 }
 
 impl Protocol {
+    /// As options and endpoints spell it: `mxtp`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Mxtp => "mxtp",
+            Self::NatNet => "natnet",
+        }
+    }
+
     /// The protocol of what came over a wire.
     pub const fn of(wire: Wire) -> Self {
         match wire {

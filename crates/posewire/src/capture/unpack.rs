@@ -6,7 +6,7 @@ use super::origin::Origins;
 use super::packet::{Head, Next, Packets};
 use super::protocol::{Detector, Protocol};
 use super::streams::{Flow, Segment, Streams};
-use super::{Captured, Counts};
+use super::{Captured, Counts, Format};
 use crate::{Datagram, Wire};
 use etherparse::{TcpSlice, UdpSlice};
 use posewire_motion::Stamp;
@@ -34,6 +34,10 @@ impl Unpacked {
             unpacker: Unpacker::new(forced),
             origins: Origins::default(),
         }
+    }
+
+    pub(super) fn format(&self) -> Format {
+        self.packets.format()
     }
 
     /// The next datagram, `None` at the end; `Err` says what ended the file before its end, once all else has been given.

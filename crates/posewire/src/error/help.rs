@@ -54,6 +54,8 @@ impl Error {
             Self::NoSamples { .. } => Some("posewire inspect says which samples a take has".into()),
             Self::NewRate { .. } => Some("leave the rate out to keep every sample".into()),
             Self::Exists { .. } => Some("choose another name, or replace it with --overwrite".into()),
+            Self::TakeRuns { .. } => Some("end it first".into()),
+            Self::TooManyTargets { .. } => Some("start the stream anew, or send to a multicast group".into()),
             Self::Stopped { .. } => Some("nothing was left half written; start again when you like".into()),
             Self::Feature { feature, .. } => Some(format!("cargo install --path crates/cli --features {feature}")),
             Self::NotMcap { .. } => Some("give a file that posewire record has written".into()),

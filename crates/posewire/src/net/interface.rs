@@ -7,15 +7,15 @@ use crate::error::{Error, Result};
 
 /// One interface of this machine, with everything that sockets need to name it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct LocalInterface {
+pub(crate) struct LocalInterface {
     /// The system's name for it.
-    pub(super) name: String,
+    pub(crate) name: String,
     /// The system's number for it; what IPv6 wants.
-    pub(super) index: u32,
+    pub(crate) index: u32,
     /// Its addresses.
-    pub(super) addresses: Vec<IpAddr>,
+    pub(crate) addresses: Vec<IpAddr>,
     /// The broadcast addresses of its IPv4 networks.
-    pub(super) broadcasts: Vec<Ipv4Addr>,
+    pub(crate) broadcasts: Vec<Ipv4Addr>,
 }
 
 impl LocalInterface {
@@ -75,7 +75,7 @@ fn refusal(wanted: &Interface, problem: &'static str, all: &[LocalInterface]) ->
 
 /// The interfaces that have an address.
 #[cfg(unix)]
-pub(super) fn list() -> Vec<LocalInterface> {
+pub(crate) fn list() -> Vec<LocalInterface> {
     let mut all: Vec<LocalInterface> = Vec::new();
     for entry in nix::ifaddrs::getifaddrs().into_iter().flatten() {
         let Some(address) = entry.address.as_ref().and_then(ip_of) else {
@@ -120,7 +120,7 @@ fn ip_of(address: &nix::sys::socket::SockaddrStorage) -> Option<IpAddr> {
 
 /// Nothing lists them here, so an interface is chosen by its address only.
 #[cfg(not(unix))]
-pub(super) fn list() -> Vec<LocalInterface> {
+pub(crate) fn list() -> Vec<LocalInterface> {
     Vec::new()
 }
 

@@ -62,12 +62,14 @@ pub struct TcpIncoming {
 }
 
 impl TcpIncoming {
-    /// Waits at most `timeout` for a connection; `None` when none came or `stop` was set.
+    /// Waits at most `timeout` for a connection; `None` when none came until then, or until `stop` was set. Who called before that
+    /// is accepted all the same.
     ///
     /// # Errors
     /// [`Error::Socket`] when the system refuses, as when too many files are open.
     pub fn accept(&self, timeout: Duration, stop: &Stop) -> Result<Option<TcpConnection>> {
         let deadline = Instant::now().checked_add(timeout);
+        let mut is_over = false;
         loop {
             let accepted = self.listener.accept();
             match accepted.and_then(|(stream, peer)| TcpConnection::over(stream, peer)) {
@@ -78,10 +80,12 @@ impl TcpIncoming {
                     return Err(Error::socket("accept a connection on", place, &error));
                 }
             }
-            let left = deadline.map_or(timeout, |end| end.saturating_duration_since(Instant::now()));
-            if left.is_zero() || stop.wait(left.min(ACCEPT_INTERVAL)) {
+            if is_over {
                 return Ok(None);
             }
+            let left = deadline.map_or(timeout, |end| end.saturating_duration_since(Instant::now()));
+            // Somebody may have called while this waited.
+            is_over = left.is_zero() || stop.wait(left.min(ACCEPT_INTERVAL));
         }
     }
 
@@ -277,6 +281,19 @@ mod tests {
                 .unwrap()
                 .starts_with("another program listens on 127.0.0.1:")
         );
+    }
+
+    #[test]
+    fn who_has_called_before_the_stop_is_accepted() {
+        for _ in 0..20 {
+            let (incoming, stop) = (listen(&loopback(0)).unwrap(), Stop::new());
+            let address = loopback(incoming.local_address().port());
+            let at_stop = stop.clone();
+            let waiting = std::thread::spawn(move || incoming.accept(Duration::from_hours(1), &at_stop));
+            let _caller = connect(&address, SOON).unwrap();
+            stop.stop();
+            assert!(waiting.join().unwrap().unwrap().is_some());
+        }
     }
 
     #[test]

@@ -3,6 +3,7 @@
 //! A [`Writer`] makes one, [`RecordSink`](crate::sink::RecordSink) makes one of a live session, [`Survey`] says what is in one and
 //! [`recover`] completes one that was cut off. The format is described in `docs/recording.md`; the constants here are its words.
 
+mod briefing;
 mod description;
 mod format;
 mod names;
@@ -12,11 +13,14 @@ mod records;
 mod recover;
 mod reminder;
 mod survey;
+mod take_name;
 mod writer;
 
+pub(crate) use briefing::Briefing;
 pub use format::{
     END, FROM, KIND, NAME, POSES, RAW, RECORDING, REPEATED, SOURCE, SOURCE_RECORD, SUBJECT, SUBJECT_RECORD, TO, WIRE,
 };
 pub use recover::{Recovered, recover};
 pub use survey::{SenderSurvey, SourceSurvey, SubjectSurvey, Survey};
+pub use take_name::{NameError, TakeName};
 pub use writer::{Writer, WriterOptions};

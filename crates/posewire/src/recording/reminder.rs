@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 /// What was described last, of each sender: a subject's name and skeleton come once a second at best, and NatNet's only when
 /// asked for, so that a later file of a split recording would not have them.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Reminder {
     last: BTreeMap<Key, Said>,
 }

@@ -1,5 +1,6 @@
 //! A recording, being written: one file, or several that follow each other.
 
+use super::briefing::Briefing;
 use super::description::describe;
 use super::format::{self, keys};
 use super::names::{Names, SubjectId};
@@ -146,6 +147,19 @@ impl Writer {
     /// that they were read from are in the file all the same.
     pub fn descriptions_left_out(&self) -> u64 {
         self.descriptions_left_out
+    }
+
+    /// Writes who is there already, at the beginning of a recording.
+    ///
+    /// # Errors
+    /// As for [`datagram`](Self::datagram).
+    pub(crate) fn brief(&mut self, briefing: &Briefing) -> Result<()> {
+        self.reminder = briefing.reminder.clone();
+        self.repeat()?;
+        for (id, subject) in &briefing.subjects {
+            self.subject(id.0, subject)?;
+        }
+        self.flush()
     }
 
     /// The present file as it is open, to see it onto the disk from another thread.

@@ -30,7 +30,7 @@ mod targets;
 
 use crate::capture::{CaptureOptions, CapturedSource, Playlist, Protocol, Selection, Survey};
 use crate::endpoint::Endpoint;
-use crate::faults::{FaultCounts, FaultPlan, Faults};
+use crate::faults::{FaultCounts, FaultPlan};
 use crate::histogram::{DurationHistogram, Summary};
 use crate::pacer::Pacer;
 use crate::sink::TargetProgress;
@@ -116,7 +116,6 @@ pub struct Replay {
     chosen: Option<u16>,
     playlist: Playlist,
     targets: Targets,
-    faults: Option<Faults>,
     lateness: DurationHistogram,
     replayed: Replayed,
     progress: Arc<Mutex<Replayed>>,
@@ -143,14 +142,13 @@ impl Replay {
             until: options.until,
             looped: options.looped,
         };
-        let targets = Targets::open(path, &reading, &survey, chosen, targets)?;
+        let targets = Targets::open(path, &reading, &survey, chosen, (targets, options.faults.as_ref()))?;
         let replay = Self {
             path: path.to_owned(),
             speed: options.speed,
             playlist: Playlist::open(path, &reading, selection)?,
             survey,
             chosen,
-            faults: options.faults.clone().map(Faults::new),
             lateness: DurationHistogram::new(),
             replayed: Replayed {
                 targets: targets.progress(),
@@ -199,10 +197,7 @@ impl Replay {
     pub fn run(mut self, stop: &Stop) -> Result<Replayed> {
         let mut pacer = Pacer::new(Instant::now(), self.speed, stop.clone())?;
         let played = self.play(&mut pacer);
-        if let Some(faults) = &mut self.faults {
-            faults.finish();
-        }
-        let played = played.and_then(|()| self.send_faulty());
+        let played = played.and(self.targets.finish_faults());
         self.targets.finish();
         self.replayed.damage = self.playlist.damage().map(str::to_owned);
         self.summarise();
@@ -227,16 +222,11 @@ impl Replay {
             if !self.targets.takes(datagram, &mut self.replayed) {
                 continue;
             }
-            if let (Some(faults), Protocol::Mxtp) = (&mut self.faults, Protocol::of(datagram.wire)) {
-                faults.handle(due.offset, &datagram.bytes);
-                self.send_faulty()?;
-            } else {
-                self.targets.send(datagram)?;
-            }
+            self.targets.send(due.offset, datagram)?;
             self.count(datagram.bytes.len(), pacer.deadline(due.offset));
         }
         // What faults hold back has its time too.
-        while let Some(at) = self.faults.as_ref().and_then(Faults::timeout) {
+        while let Some(at) = self.targets.timeout() {
             if !self.pass(at, pacer)? {
                 break;
             }
@@ -246,28 +236,17 @@ impl Replay {
 
     /// Waits until what is at `offset` is due, and sends what faults let go until then; `false` when asked to stop.
     fn pass(&mut self, offset: Duration, pacer: &mut Pacer) -> Result<bool> {
-        while let Some(faults) = &mut self.faults {
-            let Some(at) = faults.timeout().filter(|at| *at <= offset) else {
-                break;
-            };
+        while let Some(at) = self.targets.timeout().filter(|at| *at <= offset) {
             if !pacer.wait(at) {
                 return Ok(false);
             }
-            faults.handle_timeout(at);
-            self.send_faulty()?;
+            self.targets.handle_timeout(at)?;
         }
         let is_near = |at: Instant| at.saturating_duration_since(Instant::now()) < SHORTEST_WAIT;
         if pacer.deadline(offset).is_some_and(is_near) {
             return Ok(!pacer.is_stopped());
         }
         Ok(pacer.wait(offset))
-    }
-
-    fn send_faulty(&mut self) -> Result<()> {
-        while let Some(bytes) = self.faults.as_mut().and_then(Faults::poll) {
-            self.targets.send_mxtp(&bytes)?;
-        }
-        Ok(())
     }
 
     fn count(&mut self, bytes: usize, due: Option<Instant>) {
@@ -286,7 +265,7 @@ impl Replay {
     fn summarise(&mut self) {
         self.replayed.lateness = self.lateness.summary();
         self.replayed.targets = self.targets.progress();
-        self.replayed.faults = self.faults.as_ref().map(|faults| faults.counts().clone());
+        self.replayed.faults = self.targets.fault_counts();
         self.tell();
     }
 

@@ -3,30 +3,31 @@
 use crate::capture::{CaptureOptions, CapturedSource, Opening};
 use crate::clock::Clock;
 use crate::endpoint::{Endpoint, NatNetAddress};
+use crate::faults::{FaultCounts, FaultPlan};
 use crate::net::Sent;
-use crate::sink::{NatNetPorts, TargetProgress};
+use crate::sink::{FaultyFrames, NatNetPorts, TargetProgress};
 use crate::stop::Stop;
 use crate::{Error, Result};
 use posewire_natnet::client::Mode;
 use posewire_natnet::command::ServerInfo;
 use posewire_natnet::model::Model;
 use posewire_natnet::server::{Delivery, Server, ServerOptions};
-use posewire_natnet::{Message, MessageId, Output, Packet, Version};
-use std::net::SocketAddr;
+use posewire_natnet::{Message, MessageId, Output, Packet, Socket, Transmit, Version};
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// A NatNet server whose frames are those of a capture, byte for byte.
 ///
 /// Commands are answered as the captured server would: its name, version, descriptions and rate. Frames go as they are to every
-/// client, or to the group. A client that asks for another version than the capture's is refused its frames, as they would have to
-/// be written anew: that is what streaming the capture does.
+/// client, or to the group; for a client that asks for an older version they are written anew.
 pub(super) struct RawServer {
     endpoint: String,
-    group: Option<SocketAddr>,
-    version: Version,
+    is_group: bool,
+    faults: Option<FaultyFrames>,
+    /// What offsets are counted from for the faults, which know times of the clock alone.
+    opened: Instant,
     shared: Arc<Shared>,
     answering: Option<JoinHandle<()>>,
     counts: TargetProgress,
@@ -45,6 +46,7 @@ impl RawServer {
         options: &CaptureOptions,
         source: &CapturedSource,
         address: &NatNetAddress,
+        faults: Option<&FaultPlan>,
     ) -> Result<Self> {
         let opening = Opening::find(path, options, source)?;
         let ports = NatNetPorts::open(address)?;
@@ -68,11 +70,11 @@ impl RawServer {
             ending: Stop::new(),
         });
         let answers = Arc::clone(&shared);
-        let group = (address.mode == Mode::Multicast).then(|| (address.group, address.data_port).into());
         Ok(Self {
+            is_group: address.mode == Mode::Multicast,
             endpoint: Endpoint::NatNet(address).to_string(),
-            group,
-            version,
+            faults: faults.cloned().map(FaultyFrames::new),
+            opened: Instant::now(),
             shared,
             answering: Some(thread::spawn(move || answers.answer_all())),
             counts: TargetProgress::default(),
@@ -81,24 +83,67 @@ impl RawServer {
 
     /// Whether somebody is there; of a group nobody knows.
     pub(super) fn is_ready(&self) -> bool {
-        self.group.is_some() || !self.shared.lock().clients().is_empty()
+        self.is_group || !self.shared.lock().clients().is_empty()
     }
 
-    /// Sends a frame to all who get frames. What else the captured server sent was an answer, and is left out.
-    pub(super) fn send(&mut self, bytes: &[u8]) {
+    /// Sends a frame that was due at `offset` to all who get frames. What else the captured server sent was an answer, and is left
+    /// out.
+    pub(super) fn send(&mut self, offset: Duration, bytes: &[u8]) {
         if !Packet::decode(bytes).is_ok_and(|packet| packet.id == MessageId::FRAME) {
             return;
         }
-        let clients: Vec<_> = match self.group {
-            Some(group) => vec![group],
-            None => self.readers(),
-        };
-        for to in clients {
-            match self.shared.ports.send_frame(bytes, to) {
-                Sent::Taken | Sent::Nobody => self.counts.datagrams += 1,
-                Sent::NoRoom => self.counts.congested += 1,
-                Sent::Refused => self.counts.failed += 1,
+        let due = self.at(offset);
+        for frame in self.shared.relay(bytes) {
+            match &mut self.faults {
+                Some(faults) => faults.handle(due, &frame),
+                None => self.transmit(&frame),
             }
+        }
+        self.send_faulty();
+    }
+
+    /// When what faults hold back is due.
+    pub(super) fn timeout(&self) -> Option<Duration> {
+        let at = self.faults.as_ref().and_then(FaultyFrames::timeout)?;
+        Some(at.saturating_duration_since(self.opened))
+    }
+
+    pub(super) fn handle_timeout(&mut self, offset: Duration) {
+        let due = self.at(offset);
+        if let Some(faults) = &mut self.faults {
+            faults.handle_timeout(due);
+        }
+        self.send_faulty();
+    }
+
+    /// Lets go what faults hold back.
+    pub(super) fn finish_faults(&mut self) {
+        if let Some(faults) = &mut self.faults {
+            faults.finish();
+        }
+        self.send_faulty();
+    }
+
+    /// How often what was done on purpose.
+    pub(super) fn fault_counts(&self) -> Option<FaultCounts> {
+        self.faults.as_ref().map(FaultyFrames::counts)
+    }
+
+    fn at(&self, offset: Duration) -> Instant {
+        self.opened.checked_add(offset).unwrap_or(self.opened)
+    }
+
+    fn send_faulty(&mut self) {
+        while let Some(frame) = self.faults.as_mut().and_then(FaultyFrames::poll) {
+            self.transmit(&frame);
+        }
+    }
+
+    fn transmit(&mut self, frame: &Transmit) {
+        match self.shared.ports.send(frame) {
+            Sent::Taken | Sent::Nobody => self.counts.datagrams += 1,
+            Sent::NoRoom => self.counts.congested += 1,
+            Sent::Refused => self.counts.failed += 1,
         }
     }
 
@@ -125,18 +170,27 @@ impl RawServer {
             ..self.counts.clone()
         }
     }
-
-    /// The clients that can read the frames as they are.
-    fn readers(&self) -> Vec<SocketAddr> {
-        let server = self.shared.lock();
-        let reads = server.clients().iter().filter(|client| client.version == self.version);
-        reads.map(|client| client.address).collect()
-    }
 }
 
 impl Shared {
     fn lock(&self) -> MutexGuard<'_, Server> {
         self.server.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// What goes to each who gets this frame.
+    fn relay(&self, bytes: &[u8]) -> Vec<Transmit> {
+        let mut server = self.lock();
+        if let Err(error) = server.relay_frame(bytes) {
+            tracing::warn!(%error, "cannot write a frame anew for a client of another version");
+        }
+        let mut frames = Vec::new();
+        while let Some(output) = server.poll() {
+            match output {
+                Output::Transmit(transmit) if transmit.socket == Socket::Data => frames.push(transmit),
+                output => self.answer(output),
+            }
+        }
+        frames
     }
 
     /// Answers commands until the end.
@@ -158,10 +212,14 @@ impl Shared {
     fn transmit(&self) {
         let mut server = self.lock();
         while let Some(output) = server.poll() {
-            if let Output::Transmit(transmit) = output {
-                // An answer that does not get through is asked for again.
-                let _ = self.ports.send(&transmit);
-            }
+            self.answer(output);
+        }
+    }
+
+    fn answer<E>(&self, output: Output<E>) {
+        if let Output::Transmit(transmit) = output {
+            // An answer that does not get through is asked for again.
+            let _ = self.ports.send(&transmit);
         }
     }
 }

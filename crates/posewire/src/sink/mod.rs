@@ -5,14 +5,16 @@ mod natnet;
 mod progress;
 mod record;
 mod take;
+mod takes;
 
 pub(crate) use mxtp::Target as MxtpTarget;
-pub use mxtp::{Fit, MxtpSink, MxtpSinkOptions};
-pub(crate) use natnet::Ports as NatNetPorts;
+pub use mxtp::{Fit, MxtpSink, MxtpSinkOptions, MxtpTargets};
+pub(crate) use natnet::{FaultyFrames, Ports as NatNetPorts};
 pub use natnet::{NatNetSink, NatNetSinkOptions};
 pub use progress::{ClientProgress, ClientState, LeftOut, Progress, TargetProgress};
 pub use record::{RecordOptions, RecordProgress, RecordSink, RecordedSource, RecordedSubject};
 pub use take::TakeSink;
+pub use takes::{TakeProgress, Takes, TakesProgress, TakesSink};
 
 use crate::queue::Policy;
 use crate::{Error, Item, Result, SourceId};
@@ -22,7 +24,7 @@ use std::time::Instant;
 ///
 /// Each sink runs on a thread of its own behind a bounded queue, so a slow one delays nobody.
 pub trait Sink: Send {
-    /// What its queue does when it is full, and how many items it holds.
+    /// What its queue does when it is full, and how many items it holds. Whatever their number, it holds no more than 128 MiB.
     ///
     /// A `Lossless` queue makes a file source wait; a live source cannot wait, so what finds no room is dropped and
     /// counted in [`Outcome::dropped`](crate::Outcome::dropped).

@@ -2,7 +2,7 @@
 
 use crate::endpoint::Endpoint;
 use crate::queue::Policy;
-use crate::recording::{Writer, WriterOptions};
+use crate::recording::{Briefing, Writer, WriterOptions};
 use crate::stats::Statistics;
 use crate::stop::Stop;
 use crate::{Error, Item, Result, Sink, SourceId, Wants};
@@ -136,6 +136,8 @@ impl RecordedSource {
 impl RecordSink {
     /// The longest that what has come is not in the file yet, on a machine that keeps up.
     pub const FLUSH_EVERY: Duration = Duration::from_millis(100);
+    /// Seconds of everything that 16 people give at 240 Hz, which is less than what any queue may hold in bytes.
+    pub(super) const QUEUED: usize = 65_536;
 
     /// Creates the file. `sources` are the endpoints of the session's sources, in its order; `stop` is the session's.
     ///
@@ -168,6 +170,11 @@ impl RecordSink {
             progress,
             subjects: BTreeMap::new(),
         })
+    }
+
+    /// Writes who is there already, before anything is recorded.
+    pub(super) fn brief(&mut self, briefing: &Briefing) -> Result<()> {
+        self.writer.as_mut().map_or(Ok(()), |writer| writer.brief(briefing))
     }
 
     /// How far it has come, brought up to date with every flush.
@@ -267,7 +274,7 @@ impl RecordSink {
 
 impl Sink for RecordSink {
     fn queue(&self) -> (Policy, usize) {
-        (Policy::Lossless, QUEUED)
+        (Policy::Lossless, Self::QUEUED)
     }
 
     fn wants(&self) -> Wants {
@@ -385,5 +392,3 @@ impl Drop for Syncing {
 }
 
 const SYNC_EVERY: Duration = Duration::from_secs(1);
-/// Seconds of everything that 16 people give at 240 Hz, which is less than what any queue may hold in bytes.
-const QUEUED: usize = 65_536;

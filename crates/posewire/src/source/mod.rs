@@ -1,15 +1,18 @@
 //! Where frames come from.
 
 mod capture;
+mod control;
 mod file;
 mod mxtp;
 mod natnet;
 mod playback;
 mod report;
+mod schedule;
 pub mod synthetic;
 mod timeline;
 mod walk;
 
+pub use control::PlaybackControl;
 pub use playback::{PlaybackOptions, Preview};
 
 use crate::Result;
@@ -105,6 +108,14 @@ impl Source {
     pub fn preview(&self) -> Option<&Preview> {
         match &self.kind {
             Kind::Playback(playback) => Some(playback.preview()),
+            _ => None,
+        }
+    }
+
+    /// The means to pause it and to jump in it, where it is a take or the walker.
+    pub fn control(&self) -> Option<PlaybackControl> {
+        match &self.kind {
+            Kind::Playback(playback) => Some(playback.control().clone()),
             _ => None,
         }
     }

@@ -1,6 +1,9 @@
 //! Frames that are not live, sent at the pace of a clock: files and the built-in walker.
 
+use super::control::{Jump, PlaybackControl};
 use super::file::TakeFile;
+use super::report::TICK;
+use super::schedule::Schedule;
 use super::walk::Walkers;
 use crate::capture::{Protocol, Selection};
 use crate::endpoint;
@@ -8,7 +11,7 @@ use crate::pacer::Pacer;
 use crate::session::Outlet;
 use crate::stop::Stop;
 use crate::{Error, Item, Notice, Result};
-use posewire_motion::{Frame, Subject, Timecode};
+use posewire_motion::{Frame, Subject};
 use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
@@ -98,6 +101,11 @@ pub(super) trait Frames: Send + fmt::Debug {
     /// Goes back to the first sample.
     fn rewind(&mut self) -> Result<()>;
 
+    /// Goes on to just before the sample of this number, where that takes no reading; anywhere before it will do.
+    fn skip_to(&mut self, sample: u32) {
+        let _ = sample;
+    }
+
     /// Whether the rate is known and not assumed.
     fn states_rate(&self) -> bool {
         true
@@ -120,6 +128,9 @@ pub(super) struct Playback {
     frames: Box<dyn Frames>,
     options: PlaybackOptions,
     preview: Preview,
+    control: PlaybackControl,
+    /// The number of the sample that was read last.
+    read: Option<u32>,
 }
 
 impl Playback {
@@ -158,6 +169,8 @@ impl Playback {
                 first,
                 computed,
             },
+            control: PlaybackControl::default(),
+            read: None,
         })
     }
 
@@ -165,22 +178,33 @@ impl Playback {
         &self.preview
     }
 
+    pub(super) fn control(&self) -> &PlaybackControl {
+        &self.control
+    }
+
     pub(super) fn run(mut self, outlet: &mut Outlet, stop: &Stop) -> Result<()> {
-        let mut pacer = Pacer::new(Instant::now(), self.options.speed, stop.clone())?;
+        let mut schedule = Schedule::new(self.preview.rate_hz, &self.options, stop)?;
         for subject in &self.preview.subjects {
             outlet.push(Item::Subject(Arc::clone(subject)));
         }
-        let mut timeline = Timeline::new(self.preview.rate_hz);
         let mut frames = Vec::new();
         while !stop.is_stopped() {
             frames.clear();
-            if !self.frames.next_sample(&mut frames)? {
-                if !self.begin_again(&mut timeline, outlet)? {
-                    break;
+            if let Some(jump) = self.control.take_jump() {
+                self.jump(jump, &mut frames, stop)?;
+                schedule.begin_anew();
+            } else if self.control.holds() {
+                if self.hold(&mut schedule, outlet) {
+                    continue;
                 }
-                continue;
+                break;
+            } else if !self.next_sample(&mut frames)? {
+                if self.begin_again(&mut schedule, outlet)? {
+                    continue;
+                }
+                break;
             }
-            if !self.play(&mut frames, &mut timeline, &mut pacer, outlet) {
+            if !play(&mut frames, &mut schedule, outlet) {
                 break;
             }
         }
@@ -188,169 +212,77 @@ impl Playback {
         Ok(())
     }
 
+    fn next_sample(&mut self, frames: &mut Vec<Frame>) -> Result<bool> {
+        let any = self.frames.next_sample(frames)?;
+        self.read = frames.first().map(|frame| frame.sample).or(self.read);
+        Ok(any)
+    }
+
+    /// Reads on, or anew, to the sample that is jumped to, or to the last one.
+    fn jump(&mut self, jump: Jump, frames: &mut Vec<Frame>, stop: &Stop) -> Result<()> {
+        let sample = match jump {
+            Jump::Start => 0,
+            Jump::Sample(sample) => sample,
+        };
+        if self.read.is_none_or(|read| read >= sample) {
+            self.frames.rewind()?;
+        }
+        self.frames.skip_to(sample);
+        let mut next = Vec::new();
+        while !stop.is_stopped() && !self.control.wants_jump() && self.next_sample(&mut next)? {
+            frames.clear();
+            frames.append(&mut next);
+            if self.read.is_some_and(|read| read >= sample) {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Waits while it is paused; `false` when the playback is over.
+    fn hold(&self, schedule: &mut Schedule, outlet: &mut Outlet) -> bool {
+        let since = Instant::now();
+        while self.control.holds() {
+            if schedule.is_past() || !outlet.flush() || schedule.pause(TICK) {
+                return false;
+            }
+        }
+        schedule.put_off(since.elapsed());
+        true
+    }
+
     /// Goes back to the start if it is to be looped; `false` when the playback is over.
-    fn begin_again(&mut self, timeline: &mut Timeline, outlet: &mut Outlet) -> Result<bool> {
+    fn begin_again(&mut self, schedule: &mut Schedule, outlet: &mut Outlet) -> Result<bool> {
         if let Some(problem) = self.frames.damage() {
             outlet.push(Item::Notice(Notice::Damaged { problem }));
         }
-        let again = self.options.looped && timeline.next_round();
+        if !self.options.looped {
+            return Ok(self.control.end());
+        }
+        let again = schedule.next_round();
         if again {
             self.frames.rewind()?;
         }
         Ok(again)
     }
-
-    /// Sends the frames of one sample when they are due; `false` when the playback is over.
-    fn play(&self, frames: &mut Vec<Frame>, timeline: &mut Timeline, pacer: &mut Pacer, outlet: &mut Outlet) -> bool {
-        let Some(first) = frames.first() else { return true };
-        let place = timeline.place(first);
-        if !timeline.keeps(place, self.options.rate_hz) {
-            return true;
-        }
-        let offset = timeline.offset(place);
-        if self.is_over(offset, pacer) || !pacer.wait(offset) {
-            return false;
-        }
-        let due = pacer.deadline(offset);
-        for mut frame in frames.drain(..) {
-            timeline.carry_on(&mut frame);
-            outlet.push(Item::Frame {
-                frame: Arc::new(frame),
-                due,
-            });
-        }
-        outlet.flush()
-    }
-
-    /// Whether the sample at `offset` is due after the end. Those due before it are sent even when that is a little late,
-    /// but a machine that cannot keep up does not go on for ever.
-    fn is_over(&self, offset: Duration, pacer: &Pacer) -> bool {
-        let Some(duration) = self.options.duration else {
-            return false;
-        };
-        let late = |start: Instant| start.elapsed() >= duration.saturating_add(GRACE);
-        offset.as_secs_f64() / self.options.speed >= duration.as_secs_f64()
-            || pacer.deadline(Duration::ZERO).is_some_and(late)
-    }
 }
 
-/// Where a sample stands on the clock, over all rounds of a loop.
-#[derive(Debug)]
-struct Timeline {
-    rate_hz: f64,
-    first_sample: Option<u32>,
-    /// Samples of the rounds before this one.
-    past_samples: u64,
-    /// The furthest place of this round.
-    last_place: u64,
-}
-
-impl Timeline {
-    fn new(rate_hz: f64) -> Self {
-        Self {
-            rate_hz,
-            first_sample: None,
-            past_samples: 0,
-            last_place: 0,
-        }
+/// Sends the frames of one sample when they are due; `false` when the playback is over.
+fn play(frames: &mut Vec<Frame>, schedule: &mut Schedule, outlet: &mut Outlet) -> bool {
+    let Some(first) = frames.first() else { return true };
+    let Some(offset) = schedule.offset(first) else {
+        return true;
+    };
+    if schedule.ends_before(offset) || !schedule.wait(offset) {
+        return false;
     }
-
-    /// How many samples after the playback's start this one is; one from before the first of its take is due with it.
-    fn place(&mut self, frame: &Frame) -> u64 {
-        let first = *self.first_sample.get_or_insert(frame.sample);
-        let ahead = frame.sample.wrapping_sub(first) as i32;
-        let place = self.past_samples + u64::from(ahead.max(0).unsigned_abs());
-        self.last_place = self.last_place.max(place);
-        place
+    let due = schedule.due(offset);
+    for mut frame in frames.drain(..) {
+        schedule.carry_on(&mut frame);
+        outlet.push(Item::Frame {
+            frame: Arc::new(frame),
+            due,
+        });
     }
-
-    /// Whether a stream of `rate_hz` has this sample: the first one at or after each of its own instants.
-    fn keeps(&self, place: u64, rate_hz: Option<f64>) -> bool {
-        let Some(rate_hz) = rate_hz else { return true };
-        let instant = |place: u64| (place as f64 * rate_hz / self.rate_hz + ROUNDING).floor();
-        place == 0 || instant(place) > instant(place - 1)
-    }
-
-    fn offset(&self, place: u64) -> Duration {
-        Duration::from_secs_f64(place as f64 / self.rate_hz)
-    }
-
-    /// Numbers a frame of a later round on from the last round.
-    fn carry_on(&self, frame: &mut Frame) {
-        frame.sample = frame.sample.wrapping_add(self.past_samples as u32);
-        let past = self.offset(self.past_samples);
-        frame.time += past;
-        let later = |code: Timecode| u64::from(code.milliseconds()).saturating_add(past.as_millis() as u64);
-        frame.timecode = frame.timecode.map(|code| Timecode::from_milliseconds(later(code)));
-    }
-
-    /// Begins a new round; `false` when the last one had no sample.
-    fn next_round(&mut self) -> bool {
-        let any = self.first_sample.is_some() && self.last_place >= self.past_samples;
-        self.past_samples = self.last_place + 1;
-        any
-    }
-}
-
-/// How much later than asked a playback may end to send what was due before.
-const GRACE: Duration = Duration::from_secs(1);
-/// Keeps 30 of 60 from missing a sample because of the last bit of a division.
-const ROUNDING: f64 = 1e-9;
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use posewire_motion::Skeleton;
-
-    fn kept(captured_hz: f64, rate_hz: f64, samples: u64) -> Vec<u64> {
-        let timeline = Timeline::new(captured_hz);
-        (0..samples)
-            .filter(|place| timeline.keeps(*place, Some(rate_hz)))
-            .collect()
-    }
-
-    #[test]
-    fn a_quarter_of_the_rate_keeps_every_fourth_sample() {
-        assert_eq!(kept(240.0, 60.0, 13), [0, 4, 8, 12]);
-        assert_eq!(kept(240.0, 240.0, 3), [0, 1, 2]);
-    }
-
-    #[test]
-    fn an_uneven_rate_is_kept_on_average() {
-        assert_eq!(kept(60.0, 25.0, 13), [0, 3, 5, 8, 10, 12]);
-        assert_eq!(kept(60.0, 25.0, 6000).len(), 2500);
-    }
-
-    #[test]
-    fn a_second_round_goes_on_counting() {
-        let mut timeline = Timeline::new(60.0);
-        let mut frame = Frame::new(Arc::new(Subject::new("Ada", Skeleton::default())));
-        for (sample, place) in [(7, 0), (8, 1), (10, 3)] {
-            frame.sample = sample;
-            assert_eq!(timeline.place(&frame), place);
-        }
-        assert!(timeline.next_round());
-        frame.sample = 7;
-        assert_eq!(timeline.place(&frame), 4);
-        timeline.carry_on(&mut frame);
-        assert_eq!(frame.sample, 11);
-        assert_eq!(timeline.offset(60), Duration::from_secs(1));
-    }
-
-    #[test]
-    fn a_take_out_of_order_is_not_waited_for() {
-        let mut timeline = Timeline::new(60.0);
-        let mut frame = Frame::new(Arc::new(Subject::new("Ada", Skeleton::default())));
-        for (sample, place) in [(5, 0), (6, 1), (2, 0), (3, 0), (7, 2), (6, 1)] {
-            frame.sample = sample;
-            assert_eq!(timeline.place(&frame), place);
-        }
-        assert!(timeline.next_round());
-        frame.sample = 5;
-        assert_eq!(
-            timeline.place(&frame),
-            3,
-            "the next round begins after the furthest sample"
-        );
-    }
+    outlet.flush()
 }

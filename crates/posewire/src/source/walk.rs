@@ -42,4 +42,8 @@ impl Frames for Walkers {
         self.next = 0;
         Ok(())
     }
+
+    fn skip_to(&mut self, sample: u32) {
+        self.next = sample;
+    }
 }

@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use posewire_motion::{Stamp, Subject, Timecode};
+use posewire_motion::{Frame, Stamp, Subject, Timecode};
 use posewire_mxtp::{Assembler, MessageType};
 
 use super::arrivals::Arrivals;
-use super::{Counters, SampleCounts, Statistics, SubjectStatistics};
+use super::transit::Transits;
+use super::{Counters, Statistics, SubjectStatistics};
 
 /// Counts what arrives on a live stream, besides what the assembler counts.
 #[derive(Debug)]
@@ -16,6 +17,8 @@ pub(crate) struct Tally {
     datagrams: u64,
     bytes: u64,
     last_malformed: Option<String>,
+    /// Whether the newest datagram is of a sender on this machine.
+    is_here: bool,
     subjects: BTreeMap<u8, Heard>,
 }
 
@@ -23,6 +26,7 @@ pub(crate) struct Tally {
 struct Heard {
     subject: Arc<Subject>,
     timecode: Option<Timecode>,
+    transits: Transits,
     arrivals: BTreeMap<MessageType, Arrivals>,
 }
 
@@ -33,11 +37,14 @@ impl Tally {
             datagrams: 0,
             bytes: 0,
             last_malformed: None,
+            is_here: false,
             subjects: BTreeMap::new(),
         }
     }
 
-    pub(crate) fn datagram(&mut self, bytes: usize) {
+    /// A datagram; `is_here` when its sender is on this machine.
+    pub(crate) fn datagram(&mut self, bytes: usize, is_here: bool) {
+        self.is_here = is_here;
         self.datagrams += 1;
         self.bytes += bytes as u64;
     }
@@ -51,6 +58,7 @@ impl Tally {
         let fresh = || Heard {
             subject: Arc::clone(subject),
             timecode: None,
+            transits: Transits::default(),
             arrivals: BTreeMap::new(),
         };
         heard
@@ -60,13 +68,15 @@ impl Tally {
 
     pub(crate) fn message(&mut self, character: u8, message_type: MessageType, at: Stamp) {
         if let Some(heard) = self.subjects.get_mut(&character) {
+            heard.transits.is_here = self.is_here;
             heard.arrivals.entry(message_type).or_default().arrived(at);
         }
     }
 
-    pub(crate) fn timecode(&mut self, subject: &Subject, timecode: Option<Timecode>) {
-        if let (Some(heard), Some(_)) = (self.subjects.get_mut(&(subject.id as u8)), timecode) {
-            heard.timecode = timecode;
+    pub(crate) fn sample(&mut self, frame: &Frame) {
+        if let Some(heard) = self.subjects.get_mut(&(frame.subject.id as u8)) {
+            heard.timecode = frame.timecode.or(heard.timecode);
+            heard.transits.sample(frame);
         }
     }
 
@@ -79,7 +89,7 @@ impl Tally {
         let mut counted = |character| counted.remove(&character).unwrap_or_default();
         let samples: BTreeMap<_, _> = assembler.samples().collect();
         let subjects = self.subjects.iter_mut().map(|(character, heard)| SubjectStatistics {
-            samples: samples.get(character).map(Into::into),
+            samples: samples.get(character).copied(),
             ..heard.report(counted(*character), ended)
         });
         Statistics {
@@ -123,15 +133,9 @@ impl Heard {
             timecode: self.timecode,
             streams,
             samples: None,
+            transit: Some(self.transits.report()),
             tracking: None,
         }
-    }
-}
-
-impl From<&posewire_mxtp::SampleCounts> for SampleCounts {
-    fn from(counted: &posewire_mxtp::SampleCounts) -> Self {
-        let posewire_mxtp::SampleCounts { done, partial, gone } = *counted;
-        Self { done, partial, gone }
     }
 }
 

@@ -287,6 +287,7 @@ impl Heard {
             timecode: self.timecode,
             streams: Vec::new(),
             samples: None,
+            transit: None,
             tracking: (segments > 0).then_some(tracking),
         }
     }

@@ -1,8 +1,9 @@
 //! Datagrams that were captured are sources, are replayed, and stay what they are from file to file.
 
-use crate::harness::{Gathered, Gatherer, PATIENCE, Receiver, open, seconds, types};
+use crate::harness::{Gathered, Gatherer, PATIENCE, Receiver, open, play_first, types};
 use posewire::capture::{Capture, CaptureOptions, ConvertOptions, PcapWriter, Protocol, Survey, convert};
 use posewire::endpoint::Endpoint;
+use posewire::faults::FaultKind;
 use posewire::recording::{Writer, WriterOptions};
 use posewire::replay::{Replay, ReplayOptions, Replayed};
 use posewire::sink::{MxtpSink, NatNetSink, NatNetSinkOptions, RecordOptions, RecordSink};
@@ -63,12 +64,12 @@ fn payloads(datagrams: &[Datagram]) -> Vec<&[u8]> {
     datagrams.iter().map(|datagram| &*datagram.bytes).collect()
 }
 
-/// Records a walker of a moment over MXTP.
+/// Records 72 samples of two walkers over MXTP.
 fn record_walk(endpoint: &str, path: &Path) -> Vec<Datagram> {
     let recorder = Recorder::start(open(endpoint).unwrap(), path);
     let sink = MxtpSink::open(std::slice::from_ref(&recorder.endpoint), types("02,12,13,25")).unwrap();
-    let progress = crate::harness::play("synthetic:walk?people=2", &seconds(0.3), sink);
-    recorder.finish(progress.frames as usize)
+    play_first("synthetic:walk?people=2", 144, sink);
+    recorder.finish(144)
 }
 
 fn replay(path: &Path, to: &Endpoint, options: &ReplayOptions) -> Replayed {
@@ -109,7 +110,7 @@ fn a_recording_that_is_replayed_is_recorded_as_the_same_payloads_in_the_same_ord
         let replayed = replay(&first, &recorder.endpoint, &options);
         assert_eq!((replayed.lost(), replayed.damage), (0, None));
         assert_eq!(replayed.datagrams, sent.len() as u64);
-        let again = recorder.finish(2 * 72);
+        let again = recorder.finish(144);
         assert_eq!(payloads(&again), payloads(&sent));
         std::fs::remove_file(first).unwrap();
         std::fs::remove_file(second).unwrap();
@@ -138,7 +139,7 @@ fn a_recording_is_read_as_the_stream_was_with_the_times_of_the_day() {
     let path = folder.path().join("take.mcap");
     let recorder = Recorder::start(open("mxtp://127.0.0.1:0").unwrap(), &path);
     let sink = MxtpSink::open(std::slice::from_ref(&recorder.endpoint), types("02,12,13,25")).unwrap();
-    crate::harness::play("synthetic:walk?people=2", &seconds(0.3), sink);
+    play_first("synthetic:walk?people=2", 144, sink);
     let gatherer = recorder.gatherer.clone();
     recorder.finish(144);
     let live = gatherer.lock().clone();
@@ -310,7 +311,12 @@ fn a_loop_sends_the_same_bytes_again_until_it_is_stopped() {
 
 /// Records a walker over NatNet.
 fn record_natnet(path: &Path, frames: usize) -> Vec<Datagram> {
-    let Ok(Endpoint::NatNet(address)) = "natnet://127.0.0.1:0?data-port=0".parse() else {
+    record_natnet_of("natnet://127.0.0.1:0?data-port=0", path, frames)
+}
+
+/// Records a walker over NatNet from such a server.
+fn record_natnet_of(server: &str, path: &Path, frames: usize) -> Vec<Datagram> {
+    let Ok(Endpoint::NatNet(address)) = server.parse() else {
         panic!("it is NatNet")
     };
     let options = NatNetSinkOptions {
@@ -380,4 +386,125 @@ fn a_natnet_recording_is_served_to_clients_as_its_server_did() {
             .iter()
             .all(|frame| !frame.subject.name.is_empty())
     );
+}
+
+/// Replays a capture as a NatNet server to a client at `endpoint`, in which `PORT` is the server's, and gives what it recorded.
+fn replay_natnet(path: &Path, to: &str, client: &str, options: &ReplayOptions) -> (Replayed, Gathered, Vec<Datagram>) {
+    let replay = Replay::open(path, &[to.parse().unwrap()], options).unwrap();
+    let server = replay.progress().lock().unwrap().targets[0].endpoint.clone();
+    let Ok(Endpoint::NatNet(server)) = server.parse() else {
+        panic!("{server} is not NatNet")
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let client = client.replace("PORT", &server.port.to_string());
+    let recorder = Recorder::start(open(&client).unwrap(), &folder.path().join("again.mcap"));
+    let stop = Stop::new();
+    replay.wait_until_ready(&stop);
+    let replayed = replay.run(&stop).unwrap();
+    let gatherer = recorder.gatherer.clone();
+    let again = recorder.finish(2 * replayed.targets[0].datagrams as usize);
+    let gathered = gatherer.lock().clone();
+    (replayed, gathered, again)
+}
+
+fn frames(datagrams: &[Datagram]) -> Vec<&[u8]> {
+    let frames = datagrams.iter().filter(|datagram| datagram.bytes[0] == 7);
+    frames.map(|datagram| &*datagram.bytes).collect()
+}
+
+#[test]
+fn captures_of_older_bitstreams_are_served_as_they_are() {
+    let folder = tempfile::tempdir().unwrap();
+    for version in ["2.7", "3.0", "3.1", "4.0"] {
+        let path = folder.path().join(format!("{version}.mcap"));
+        let server = format!("natnet://127.0.0.1:0?data-port=0&version={version}");
+        let sent = record_natnet_of(&server, &path, 60);
+        let to = "natnet://127.0.0.1:0?data-port=0";
+        let (replayed, gathered, again) =
+            replay_natnet(&path, to, "natnet://127.0.0.1:PORT", &ReplayOptions::default());
+        assert_eq!(replayed.lost(), 0);
+        assert_eq!(gathered.server().version.to_string(), version);
+        assert_eq!(frames(&again), frames(&sent), "{version}");
+    }
+}
+
+#[test]
+fn a_client_of_an_older_bitstream_gets_the_frames_written_anew() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("take.mcap");
+    let sent = record_natnet(&path, 60);
+    let (to, client) = (
+        "natnet://127.0.0.1:0?data-port=0",
+        "natnet://127.0.0.1:PORT?version=3.0",
+    );
+    let (_, gathered, again) = replay_natnet(&path, to, client, &ReplayOptions::default());
+    assert_eq!(gathered.server().version.to_string(), "3.0");
+    let played = play(&path, &faster());
+    let poses = |gathered: &Gathered| -> Vec<_> {
+        let frames = gathered.frames.iter();
+        frames
+            .map(|frame| (frame.subject.id, frame.sample, frame.position.clone()))
+            .collect()
+    };
+    assert_eq!(poses(&gathered), poses(&played));
+    assert_eq!(frames(&again).len(), frames(&sent).len());
+    assert_ne!(frames(&again)[0].len(), frames(&sent)[0].len());
+}
+
+#[test]
+fn natnet_frames_meet_the_faults_of_a_replay() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("take.mcap");
+    let sent = record_natnet(&path, 400);
+    let options = ReplayOptions {
+        faults: Some("loss=10%,dup=5%,seed=3".parse().unwrap()),
+        ..ReplayOptions::default()
+    };
+    let to = "natnet://127.0.0.1:0?data-port=0";
+    let replay = Replay::open(&path, &[to.parse().unwrap()], &options).unwrap();
+    let server = replay.progress().lock().unwrap().targets[0].endpoint.clone();
+    let (raw, stop) = (crate::datagrams::Raw::default(), Stop::new());
+    let session = Session::start([open(&server).unwrap()], vec![Box::new(raw.clone())], stop.clone());
+    replay.wait_until_ready(&stop);
+    let replayed = replay.run(&stop).unwrap();
+    let made = replayed.faults.unwrap();
+    let (lost, doubled) = (made.of(FaultKind::Loss), made.of(FaultKind::Duplicate));
+    assert!(lost > 0 && doubled > 0);
+    assert_eq!(made.taken, frames(&sent).len() as u64);
+    let left = made.taken - lost + doubled;
+    assert_eq!(replayed.targets[0].datagrams, left);
+    let is_frame = |datagram: &Datagram| datagram.bytes[0] == 7;
+    let count = |arrived: &crate::datagrams::Arrived| arrived.iter().filter(|(_, datagram)| is_frame(datagram)).count();
+    let arrived = raw.wait_until(|arrived| count(arrived) as u64 >= left);
+    stop.stop();
+    session.wait().unwrap();
+    assert_eq!(count(&arrived) as u64, left);
+}
+
+#[test]
+fn frames_of_a_replay_are_copied_to_the_data_port_when_asked() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("take.mcap");
+    let sent = record_natnet(&path, 20);
+    // Nobody else may have the port, so that it is one that this test holds.
+    let listening = std::net::UdpSocket::bind("127.0.0.1:0").unwrap();
+    listening.set_read_timeout(Some(PATIENCE)).unwrap();
+    let port = listening.local_addr().unwrap().port();
+    let to = format!("natnet://127.0.0.1:0?copy=true&data-port={port}");
+    let replay = Replay::open(&path, &[to.parse().unwrap()], &ReplayOptions::default()).unwrap();
+    let server = replay.progress().lock().unwrap().targets[0].endpoint.clone();
+    let Ok(Endpoint::NatNet(server)) = server.parse() else {
+        panic!("{server} is not NatNet")
+    };
+    let client = std::net::UdpSocket::bind("127.0.0.1:0").unwrap();
+    // A connect without a word of who asks.
+    client.send_to(&[0; 4], ("127.0.0.1", server.port)).unwrap();
+    let stop = Stop::new();
+    replay.wait_until_ready(&stop);
+    replay.run(&stop).unwrap();
+    for frame in frames(&sent) {
+        let mut buffer = [0; 16_384];
+        let length = listening.recv(&mut buffer).unwrap();
+        assert_eq!(&buffer[..length], frame);
+    }
 }

@@ -172,6 +172,58 @@ pub(crate) fn play(source: &str, playback: &PlaybackOptions, sink: MxtpSink) -> 
     progress
 }
 
+/// A sink that takes so many frames and then ends the session, however long that takes.
+struct First {
+    left: u64,
+    sink: MxtpSink,
+    stop: Stop,
+}
+
+impl Sink for First {
+    fn accept(&mut self, source: SourceId, item: &Item) -> Result<()> {
+        if let Item::Frame { .. } = item {
+            let Some(left) = self.left.checked_sub(1) else {
+                return Ok(());
+            };
+            self.left = left;
+        }
+        self.sink.accept(source, item)?;
+        if self.left == 0 {
+            self.stop.stop();
+        }
+        Ok(())
+    }
+
+    fn finish(&mut self) -> Result<()> {
+        self.sink.finish()
+    }
+}
+
+/// Plays the first frames of a source to a sink. Playback that ends by the clock has fewer of them on a busy machine.
+pub(crate) fn play_first(source: &str, frames: u64, sink: MxtpSink) {
+    let stop = Stop::new();
+    let progress = sink.progress();
+    sink.wait_until_ready(&stop);
+    let first = First {
+        left: frames,
+        sink,
+        stop: stop.clone(),
+    };
+    Session::start([open(source).unwrap()], vec![Box::new(first)], stop)
+        .wait()
+        .unwrap();
+    let progress = progress.lock().unwrap();
+    assert_eq!((progress.frames, progress.lost()), (frames, 0));
+}
+
+/// Streams the first frames of a source over UDP and gives what arrived.
+pub(crate) fn first_over_udp(source: &str, frames: u64, options: MxtpSinkOptions) -> Gathered {
+    let receiver = Receiver::start("mxtp://127.0.0.1:0");
+    let sink = MxtpSink::open(std::slice::from_ref(&receiver.endpoint), options).unwrap();
+    play_first(source, frames, sink);
+    receiver.finish(frames)
+}
+
 /// Streams a source over UDP and gives what arrived.
 pub(crate) fn over_udp(source: &str, playback: &PlaybackOptions, options: MxtpSinkOptions) -> Gathered {
     let receiver = Receiver::start("mxtp://127.0.0.1:0");

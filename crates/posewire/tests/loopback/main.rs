@@ -2,6 +2,7 @@
 
 mod captures;
 mod datagrams;
+mod doctor;
 mod ends;
 mod faults;
 mod harness;
@@ -9,5 +10,6 @@ mod natnet;
 mod natnet_sink;
 mod recording;
 mod reference;
+mod remote;
 mod transports;
 mod walkers;

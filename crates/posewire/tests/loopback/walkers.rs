@@ -1,6 +1,6 @@
 //! The built-in walker, streamed and received.
 
-use crate::harness::{Receiver, over_udp, play, seconds, types};
+use crate::harness::{Receiver, first_over_udp, over_udp, play_first, seconds, types};
 use posewire::endpoint::Endpoint;
 use posewire::sink::{MxtpSink, MxtpSinkOptions};
 use posewire::source::PlaybackOptions;
@@ -11,7 +11,7 @@ use posewire_mxtp::{MessageType, Revision};
 
 #[test]
 fn sixteen_people_arrive_whole() {
-    let gathered = over_udp("synthetic:walk?people=16&rate=240", &seconds(2.0), types("02,20,12,13"));
+    let gathered = first_over_udp("synthetic:walk?people=16&rate=240", 16 * 480, types("02,20,12,13"));
     gathered.assert_whole();
     assert_eq!(gathered.frames.len(), 16 * 480);
     for character in 0..16 {
@@ -105,7 +105,7 @@ fn a_lower_stream_rate_is_a_stride_and_no_loss() {
 fn a_character_that_disconnects_comes_back() {
     let receiver = Receiver::start("mxtp://127.0.0.1:0");
     let targets = [receiver.endpoint.clone()];
-    let stream = |people: usize, character: u8| {
+    let stream = |people: u64, character: u8| {
         let sink = MxtpSink::open(
             &targets,
             MxtpSinkOptions {
@@ -114,7 +114,8 @@ fn a_character_that_disconnects_comes_back() {
             },
         )
         .unwrap();
-        play(&format!("synthetic:walk?people={people}&rate=600"), &seconds(0.5), sink).frames
+        play_first(&format!("synthetic:walk?people={people}&rate=600"), people * 300, sink);
+        people * 300
     };
     // Each round begins at sample 0 again, as a new recording does.
     let sent = stream(2, 0) + stream(1, 1) + stream(2, 0);

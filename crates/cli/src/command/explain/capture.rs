@@ -5,8 +5,8 @@ use super::protocol::Reading;
 use super::{Tally, json, text};
 use crate::cli::Explain;
 use crate::error::Usage;
-use posewire::Datagram;
 use posewire::capture::{Capture, CaptureOptions, Captured, Protocol};
+use posewire::{Datagram, Error};
 use posewire_natnet::{MessageId, Packet};
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -14,17 +14,15 @@ use std::path::Path;
 
 /// Whether the file is one.
 pub(super) fn is_capture(path: &Path) -> bool {
+    let is_something_else = |opened: &_| matches!(opened, Err(Error::NotACapture { .. } | Error::Read { .. }));
     // What is no file can be read only once.
-    path.is_file() && Capture::open(path, &CaptureOptions::default()).is_ok()
+    path.is_file() && !is_something_else(&Capture::open(path, &CaptureOptions::default()))
 }
 
 /// Explains every datagram.
 pub(super) fn write_all(arguments: &Explain, out: &mut impl Write) -> anyhow::Result<Tally> {
     let options = CaptureOptions {
-        protocol: arguments.protocol.map(|protocol| match protocol {
-            crate::cli::Protocol::Mxtp => Protocol::Mxtp,
-            crate::cli::Protocol::Natnet => Protocol::NatNet,
-        }),
+        protocol: arguments.protocol.map(Into::into),
     };
     let readings = Readings::find(arguments, &options)?;
     let mut tally = Tally::default();

@@ -20,6 +20,7 @@ mod stick;
 mod table;
 mod text;
 mod theme;
+mod transit;
 mod types;
 mod view;
 mod watch;

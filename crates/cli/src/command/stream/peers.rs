@@ -26,7 +26,8 @@ impl Peers {
 
     /// Says what has happened since the last time.
     pub(super) fn tell(&mut self, progress: &Progress) {
-        let peers = self.known.iter().zip(&progress.targets).flat_map(changes);
+        let before = |now| (known(&self.known, now), now);
+        let peers = progress.targets.iter().map(before).flat_map(changes);
         let new: Vec<_> = progress
             .left_out
             .iter()
@@ -39,6 +40,15 @@ impl Peers {
         self.known.clone_from(&progress.targets);
         self.left_out.clone_from(&progress.left_out);
     }
+}
+
+/// A target as it was; targets come and go, and one that is new has no peers that have come since.
+fn known(known: &[TargetProgress], now: &TargetProgress) -> TargetProgress {
+    let before = known.iter().find(|before| before.endpoint == now.endpoint);
+    before.cloned().unwrap_or_else(|| TargetProgress {
+        peers: now.peers,
+        ..TargetProgress::default()
+    })
 }
 
 /// A line for each reason.
@@ -55,7 +65,7 @@ fn left_out(entries: &[&LeftOut]) -> Vec<String> {
 }
 
 /// What has changed at a target, a line each.
-fn changes((before, now): (&TargetProgress, &TargetProgress)) -> Vec<String> {
+fn changes((before, now): (TargetProgress, &TargetProgress)) -> Vec<String> {
     let clients = now.clients.iter().filter_map(|client| {
         let known = before.clients.iter().find(|known| known.address == client.address);
         change(known, client)
@@ -138,7 +148,8 @@ mod tests {
             ..Progress::default()
         };
         let peers = Peers::of(&progress);
-        let told: Vec<_> = peers.known.iter().zip(&progress.targets).flat_map(changes).collect();
+        let before = |now| (known(&peers.known, now), now);
+        let told: Vec<_> = progress.targets.iter().map(before).flat_map(changes).collect();
         assert_eq!(told, ["natnet://h: 10.0.0.2:5000 (ROS) connected, gets NatNet 3.0"]);
     }
 

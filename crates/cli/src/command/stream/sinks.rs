@@ -5,7 +5,7 @@ use crate::cli::{Revision, Stream};
 use posewire::capture::Protocol;
 use posewire::endpoint::Endpoint;
 use posewire::faults::FaultPlan;
-use posewire::sink::{Fit, MxtpSink, MxtpSinkOptions, NatNetSink, NatNetSinkOptions, Progress};
+use posewire::sink::{Fit, MxtpSink, MxtpSinkOptions, MxtpTargets, NatNetSink, NatNetSinkOptions, Progress};
 use posewire::source::Preview;
 use posewire::stop::Stop;
 use posewire::{Sink, Source, SourceId};
@@ -70,6 +70,11 @@ impl Sinks {
     /// Waits until somebody is there or `stop` is set, so that a take is not played to nobody.
     pub(super) fn wait_until_ready(&self, stop: &Stop) {
         while !self.is_ready() && !stop.wait(Duration::from_millis(20)) {}
+    }
+
+    /// The MXTP targets, to add and remove them.
+    pub(super) fn targets(&self) -> Option<MxtpTargets> {
+        self.mxtp.as_ref().map(MxtpSink::targets)
     }
 
     pub(super) fn progress(&self) -> Handles {

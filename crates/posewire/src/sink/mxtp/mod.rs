@@ -3,9 +3,10 @@
 mod characters;
 mod fitting;
 mod target;
+mod targets;
 mod tcp;
 
-use super::{LeftOut, Progress, Sink, TargetProgress};
+use super::{LeftOut, Progress, Sink};
 use crate::endpoint::Endpoint;
 use crate::faults::{FaultPlan, LiveFaults};
 use crate::histogram::DurationHistogram;
@@ -20,6 +21,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 pub(crate) use target::Target;
+pub use targets::MxtpTargets;
 
 /// What is sent, and how.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,7 +90,7 @@ impl Fit {
 /// A subject is the character of its number at its source. Where another source has that one already, it is the first that is free.
 pub struct MxtpSink {
     options: MxtpSinkOptions,
-    targets: Vec<Target>,
+    targets: MxtpTargets,
     characters: Characters,
     /// Of each source that is fitted.
     fittings: BTreeMap<SourceId, Fitting>,
@@ -111,7 +113,7 @@ impl MxtpSink {
     /// What keeps a target from being opened: an address that is not found, a port in use, a peer that refuses.
     /// [`Error::NotATarget`] for an endpoint that is not MXTP.
     pub fn open(targets: &[Endpoint], mut options: MxtpSinkOptions) -> Result<Self> {
-        let targets = targets.iter().map(Target::open).collect::<Result<Vec<_>>>()?;
+        let targets = MxtpTargets::open(targets)?;
         let sink = Self {
             never: match options.fit {
                 Fit::All => Fitting::leave_out_types(&mut options.types),
@@ -127,7 +129,7 @@ impl MxtpSink {
             lateness: DurationHistogram::new(),
             next_summary: Instant::now(),
         };
-        sink.lock_progress().targets = sink.targets.iter().map(Target::progress).collect();
+        sink.lock_progress().targets = sink.targets.progress();
         sink.tell_left_out();
         Ok(sink)
     }
@@ -139,12 +141,17 @@ impl MxtpSink {
 
     /// Whether anybody is there to be sent to: not before the first peer has come when all targets listen.
     pub fn is_ready(&self) -> bool {
-        self.targets.iter().any(Target::is_ready)
+        self.targets.are_ready()
     }
 
     /// Waits until [`is_ready`](Self::is_ready) or `stop` is set, so that a take is not played to nobody.
     pub fn wait_until_ready(&self, stop: &Stop) {
         while !self.is_ready() && !stop.wait(Duration::from_millis(20)) {}
+    }
+
+    /// A handle to the targets, to add and remove them while it runs.
+    pub fn targets(&self) -> MxtpTargets {
+        self.targets.clone()
     }
 
     /// A handle to the numbers so far, for any thread. They are brought up to date ten times a second and at the end.
@@ -197,11 +204,11 @@ impl MxtpSink {
             character
                 .encoder
                 .encode_subject(&character.subject, &mut self.datagrams);
-            send(&mut self.targets, &mut self.datagrams, &mut self.faults, now)?;
+            send(&self.targets, &mut self.datagrams, &mut self.faults, now)?;
         }
         self.datagrams.clear();
         character.encoder.encode_frame(frame, &mut self.datagrams);
-        send(&mut self.targets, &mut self.datagrams, &mut self.faults, now)?;
+        send(&self.targets, &mut self.datagrams, &mut self.faults, now)?;
         let sent = Instant::now();
         if let Some(due) = due {
             self.lateness.record(sent.saturating_duration_since(due));
@@ -219,8 +226,7 @@ impl MxtpSink {
         if self.datagrams.is_empty() {
             return Ok(());
         }
-        let datagrams = &self.datagrams;
-        self.targets.iter_mut().try_for_each(|target| target.send(datagrams))
+        self.targets.send(&self.datagrams)
     }
 
     fn count(&mut self, now: Instant) {
@@ -229,7 +235,7 @@ impl MxtpSink {
         if now >= self.next_summary {
             self.next_summary = now + SUMMARISE_EVERY;
             progress.lateness = self.lateness.summary();
-            progress.targets = self.targets.iter().map(Target::progress).collect();
+            progress.targets = self.targets.progress();
             progress.faults = self.faults.as_ref().map(|faults| faults.counts().clone());
         }
     }
@@ -240,12 +246,7 @@ impl MxtpSink {
 }
 
 /// Sends datagrams that were due, or what faults make of them.
-fn send(
-    targets: &mut [Target],
-    datagrams: &mut Datagrams,
-    faults: &mut Option<LiveFaults>,
-    due: Instant,
-) -> Result<()> {
+fn send(targets: &MxtpTargets, datagrams: &mut Datagrams, faults: &mut Option<LiveFaults>, due: Instant) -> Result<()> {
     if let Some(faults) = faults {
         datagrams.iter().for_each(|datagram| faults.handle(due, datagram));
         leave(faults, datagrams);
@@ -253,7 +254,7 @@ fn send(
     if datagrams.is_empty() {
         return Ok(());
     }
-    targets.iter_mut().try_for_each(|target| target.send(datagrams))
+    targets.send(datagrams)
 }
 
 /// Puts what leaves now into `datagrams`.
@@ -289,15 +290,10 @@ impl Sink for MxtpSink {
             faults.finish();
         }
         let sent = self.send_faulty();
-        // Those who are served to the end, and not nobody, which is who is left after it.
-        let peers: Vec<_> = self.targets.iter().map(|target| target.progress().peers).collect();
-        self.targets.iter_mut().for_each(Target::finish);
+        let targets = self.targets.finish();
         let mut progress = self.progress.lock().unwrap_or_else(PoisonError::into_inner);
         progress.lateness = self.lateness.summary();
-        let targets = self.targets.iter().map(Target::progress).zip(peers);
-        progress.targets = targets
-            .map(|(target, peers)| TargetProgress { peers, ..target })
-            .collect();
+        progress.targets = targets;
         progress.faults = self.faults.as_ref().map(|faults| faults.counts().clone());
         sent
     }

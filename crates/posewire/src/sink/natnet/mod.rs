@@ -12,6 +12,7 @@ use crate::endpoint::NatNetAddress;
 use crate::faults::FaultPlan;
 use crate::stop::Stop;
 use crate::{Item, Result, SourceId};
+pub(crate) use faulty::FaultyFrames;
 use gathering::Share;
 pub(crate) use ports::Ports;
 use posewire_motion::{Frame, Subject};

@@ -54,11 +54,6 @@ impl Ports {
         })
     }
 
-    /// Sends a frame that is there as bytes. Never waits.
-    pub(crate) fn send_frame(&self, bytes: &[u8], to: SocketAddr) -> Sent {
-        self.data.send(bytes, to)
-    }
-
     /// Where commands are answered.
     pub(crate) fn local_address(&self) -> SocketAddr {
         self.command.local_address()

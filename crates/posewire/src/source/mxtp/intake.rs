@@ -19,6 +19,13 @@ pub(in crate::source) struct Way {
     pub(in crate::source) to: SocketAddr,
 }
 
+impl Way {
+    /// Whether both ends are certainly on one machine.
+    fn is_within_a_machine(&self) -> bool {
+        self.from.ip().to_canonical().is_loopback() || self.from.ip() == self.to.ip()
+    }
+}
+
 /// Assembles what arrives, counts it, and hands it on.
 pub(in crate::source) struct Intake<'a> {
     assembler: Assembler,
@@ -62,7 +69,7 @@ impl<'a> Intake<'a> {
             received: at,
             bytes: bytes.into(),
         });
-        self.tally.datagram(bytes.len());
+        self.tally.datagram(bytes.len(), way.is_within_a_machine());
         self.assembler.handle(at, bytes);
         self.forward(at);
     }
@@ -122,7 +129,7 @@ impl<'a> Intake<'a> {
                     self.outlet.push(Item::Subject(subject));
                 }
                 Event::Frame(frame) => {
-                    self.tally.timecode(&frame.subject, frame.timecode);
+                    self.tally.sample(&frame);
                     self.outlet.push(Item::Frame { frame, due: self.due });
                 }
                 Event::Message {

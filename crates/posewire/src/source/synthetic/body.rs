@@ -17,6 +17,8 @@ pub(super) struct Body {
     left: Leg,
     /// The sideways lean into the turn, rad.
     bank: f64,
+    /// How high the hips are on average, m.
+    hips: f64,
     /// For each prop and finger segment: what it hangs on, and how.
     held: Vec<(Option<usize>, Grip)>,
 }
@@ -42,18 +44,21 @@ impl Body {
     /// A body of this skeleton, the standard one scaled.
     pub(super) fn new(style: Style, skeleton: &Skeleton) -> Self {
         let speed = style.stride / style.stride_time;
-        Self {
+        let mut body = Self {
             style,
             right: Leg::new(&style, skeleton, RIGHT_LEG, -1.0),
             left: Leg::new(&style, skeleton, LEFT_LEG, 1.0),
             bank: style.path.direction * BANK * (speed * speed / (GRAVITY * style.path.radius)).atan(),
+            hips: style.height * LOW_HIPS,
             held: skeleton
                 .segments
                 .iter()
                 .skip(BODY_SEGMENTS.len())
                 .map(|held| (held.parent, Grip::new(held)))
                 .collect(),
-        }
+        };
+        body.hips += body.room_above();
+        body
     }
 
     /// The pose at a time in seconds.
@@ -107,11 +112,21 @@ impl Body {
             position: height
                 * DVec3::new(
                     0.006 * wave(2.0 * (strides - 0.18)),
-                    HIP_HEIGHT * inward - 0.018 * wave(strides - 0.3),
-                    HIP_HEIGHT - BOB * wave(2.0 * strides),
+                    self.hips / height * inward - 0.018 * wave(strides - 0.3),
+                    self.hips / height - BOB * wave(2.0 * strides),
                 ),
             turn: DVec3::new(roll, pitch, yaw),
         }
+    }
+
+    /// How much higher the hips could be and both legs still reach the ground throughout a stride, m.
+    fn room_above(&self) -> f64 {
+        let room = |step: u8| {
+            let phase = f64::from(step) / f64::from(STEPS);
+            let right = self.right.room_above(phase, self.pelvis(phase));
+            right.min(self.left.room_above(phase, self.pelvis(phase + 0.5)))
+        };
+        (0..STEPS).map(room).fold(f64::INFINITY, f64::min)
     }
 
     /// The orientations of the body's segments in the path frame.
@@ -202,6 +217,14 @@ impl Leg {
         let [thigh, shank] = reach(hip, ankle, self.thigh, self.shank, forward);
         [thigh, shank, foot, toe]
     }
+
+    /// How much higher the hip could be `phase` of a stride after the heel struck, with the leg almost straight, m.
+    fn room_above(&self, phase: f64, pelvis: Pelvis) -> f64 {
+        let hip = pelvis.position + turned(pelvis.turn) * self.hip;
+        let leg = hip - self.foot.at(phase).ankle;
+        let longest = STRETCH * (self.thigh + self.shank);
+        (longest * longest - leg.truncate().length_squared()).max(0.0).sqrt() - leg.z
+    }
 }
 
 /// The cosine of so many turns.
@@ -216,9 +239,13 @@ fn turned(angles: DVec3) -> DQuat {
 
 const RIGHT_LEG: usize = 15;
 const LEFT_LEG: usize = 19;
-/// How high the hips are on average, and how far they rise and fall, of a nominal adult, m.
-const HIP_HEIGHT: f64 = 0.8975;
-const BOB: f64 = 0.0185;
+/// Hips of a nominal adult that are low enough for any style, and how far they rise and fall, m.
+const LOW_HIPS: f64 = 0.88;
+const BOB: f64 = 0.014;
+/// The share of its length to which a leg is stretched at most: the knee bends by 9 degrees then.
+const STRETCH: f64 = 0.9972;
+/// Places of a stride at which legs are looked at.
+const STEPS: u8 = 100;
 /// How much of the lean that balances the turn is taken.
 const BANK: f64 = 0.8;
 const GRAVITY: f64 = 9.81;

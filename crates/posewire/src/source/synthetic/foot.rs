@@ -123,24 +123,24 @@ fn toe_bend(phase: f64) -> f64 {
 
 /// Phases of a stride at which the foot is flat, its heel leaves the ground, its toe leaves the ground.
 const FLAT: f64 = 0.11;
-const HEEL_OFF: f64 = 0.31;
-const TOE_OFF: f64 = 0.62;
+const HEEL_OFF: f64 = 0.4;
+const TOE_OFF: f64 = 0.612;
 /// When the toe is in line with the foot again.
-const TOE_STRAIGHT: f64 = 0.84;
+const TOE_STRAIGHT: f64 = 0.8;
 /// How far ahead of the body the ankle of the flat foot will be as the heel strikes, in strides.
-const FIRST_ANKLE: f64 = 0.230;
+const FIRST_ANKLE: f64 = 0.217;
 /// How much the ankle rises in the air above the plainest way, in ankle heights, and how much more of that is late.
-const LIFT: f64 = 0.58;
-const LATE_LIFT: f64 = 0.15;
+const LIFT: f64 = 0.466;
+const LATE_LIFT: f64 = -0.774;
 
 /// The foot's pitch over a stride: degrees, toes down, slopes per stride.
 const PITCH: [Knot; 8] = [
-    Knot::new(0.0, -18.0, 150.0, 3000.0),
+    Knot::new(0.0, -15.0, 289.0, -4655.0),
     Knot::new(FLAT, 0.0, 0.0, 0.0),
     Knot::new(HEEL_OFF, 0.0, 0.0, 0.0),
-    Knot::new(0.5, 20.0, 230.0, 900.0),
-    Knot::new(TOE_OFF, 56.0, 310.0, -1500.0),
-    Knot::new(0.69, 65.0, 0.0, -5500.0),
-    Knot::new(0.84, 5.0, -420.0, 2500.0),
-    Knot::new(0.94, -19.0, -50.0, 2500.0),
+    Knot::new(0.5, 11.5, 262.0, 4131.0),
+    Knot::new(TOE_OFF, 52.7, 494.0, 4718.0),
+    Knot::new(0.662, 64.4, 0.0, -4516.0),
+    Knot::new(0.84, 14.75, -302.0, 114.0),
+    Knot::new(0.94, -15.4, -148.0, -2182.0),
 ];

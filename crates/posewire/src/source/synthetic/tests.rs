@@ -190,6 +190,20 @@ fn joints_hold_together_and_bend_the_way_they_can() {
 }
 
 #[test]
+fn legs_stretch_under_the_body_and_behind_it() {
+    let walk = crowd(0, false);
+    for person in 0..MAX_PEOPLE {
+        let standing = (0..SAMPLES).map(|sample| walk.frame(person, sample));
+        let standing = standing.filter(|frame| frame.contacts[0] || frame.contacts[1]);
+        let bends = standing.map(|frame| [18, 19].map(|joint| frame.joint_angles[joint].unwrap().z.to_degrees()));
+        let [hip, knee] = bends.fold([f64::INFINITY; 2], |[hip, knee], bend| {
+            [hip.min(bend[0]), knee.min(bend[1])]
+        });
+        assert!(hip < -3.0 && knee < 20.0, "person {person}: hip {hip}, knee {knee}");
+    }
+}
+
+#[test]
 fn trackers_feel_gravity_and_the_field() {
     let walk = crowd(0, false);
     for sample in (0..SAMPLES).step_by(7) {

@@ -87,7 +87,11 @@ fn cell(character: &Character, is_selected: bool, (column, width): (usize, usize
         STATE => (state_text(state).to_owned(), theme.state(state)),
         SEGMENTS => (subject.skeleton.segments.len().to_string(), plain),
         RATE => or_dash(fastest.map(|row| text::rate(row.rate_hz))),
-        STRIDE => or_dash(fastest.and_then(|row| row.stride).map(|stride| stride.to_string())),
+        STRIDE => or_dash(
+            fastest
+                .and_then(|row| row.counters.stride)
+                .map(|stride| stride.to_string()),
+        ),
         TIMECODE => or_dash(character.timecode.map(|timecode| timecode.to_string())),
         SAMPLE => or_dash(frame.map(|frame| text::count(frame.sample.into(), width))),
         TIME => or_dash(frame.map(|frame| format!("{:.3}", frame.time.as_secs_f64()))),

@@ -77,7 +77,7 @@ fn draw_stream(
 
 fn wanted(view: &View, selected: &Character, problems: &[Problem]) -> Wanted {
     let (share, stream, details) = match view.protocol {
-        Protocol::Mxtp => (4, lines(selected.types.len().max(1)) + 1, angles::count(selected)),
+        Protocol::Mxtp => (4, types::lines(selected), angles::count(selected)),
         Protocol::NatNet => (3, server::LINES, positions::count(selected)),
     };
     Wanted {

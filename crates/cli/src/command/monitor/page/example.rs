@@ -2,8 +2,9 @@
 
 pub(super) mod natnet;
 
-use super::view::{Character, Troubles, TypeRow, View};
+use super::view::{Character, Troubles, View};
 use posewire::histogram::Summary;
+use posewire::stats::{Clocks, Counters, SampleCounts, StreamStatistics, Transit};
 use posewire_motion::kinematics::complete;
 use posewire_motion::{Color, DQuat, Frame, Skeleton, Subject};
 use posewire_mxtp::{MessageType, Quirk};
@@ -34,21 +35,26 @@ pub(super) fn trouble(view: &mut View) {
         skipped_bytes: 120,
         characters_refused: 5,
     };
-    let Some(row) = view
-        .characters
-        .first_mut()
-        .and_then(|character| character.types.first_mut())
-    else {
+    let Some(character) = view.characters.first_mut() else {
         return;
     };
-    row.missing = 12;
-    row.duplicate = 2;
-    row.late = 7;
-    row.reset = 1;
-    row.incomplete = 4;
-    row.malformed = 1;
-    row.stride = Some(4);
-    row.quirks = vec![(Quirk::ItemCount.into(), 240), (Quirk::PayloadSize.into(), 99_000)];
+    character.samples = Some(SampleCounts {
+        done: 19_900,
+        partial: 8,
+        gone: 4,
+    });
+    let Some(row) = character.types.first_mut() else { return };
+    let counters = &mut row.counters;
+    counters.missing = 12;
+    counters.duplicate = 2;
+    counters.late = 7;
+    counters.reset = 1;
+    counters.rewound = 2;
+    counters.jumped = 3;
+    counters.incomplete = 4;
+    counters.malformed = 1;
+    counters.stride = Some(4);
+    counters.quirks = vec![(Quirk::ItemCount.into(), 240), (Quirk::PayloadSize.into(), 99_000)];
 }
 
 /// A sample of someone in the T-pose, 1.75 m tall, at the origin.
@@ -89,11 +95,30 @@ fn character(id: u32) -> Character {
         age: Duration::from_millis(4),
         timecode,
         types,
+        samples: Some(SampleCounts {
+            done: 19_920,
+            ..SampleCounts::default()
+        }),
+        transit: Some(transit()),
         tracking: None,
     }
 }
 
-fn type_row(message_type: MessageType) -> TypeRow {
+fn transit() -> Transit {
+    let spread = |p50: u64| Summary {
+        count: 19_920,
+        p50: Duration::from_micros(p50),
+        p99: Duration::from_micros(3 * p50),
+        max: Duration::from_micros(9 * p50),
+    };
+    Transit {
+        variation: Some(spread(210)),
+        latency: Some(spread(1_300)),
+        clocks: Clocks::Agree,
+    }
+}
+
+fn type_row(message_type: MessageType) -> StreamStatistics {
     let often = !matches!(message_type, MessageType::META | MessageType::SCALE);
     let period = if often {
         Duration::from_micros(4_167)
@@ -106,18 +131,14 @@ fn type_row(message_type: MessageType) -> TypeRow {
         p99: period * 11 / 10,
         max: period * 2,
     };
-    TypeRow {
+    StreamStatistics {
         kind: message_type.into(),
         rate_hz: 1.0 / period.as_secs_f64(),
-        stride: often.then_some(1),
-        received: if often { 19_920 } else { 83 },
-        missing: 0,
-        duplicate: 0,
-        late: 0,
-        reset: 0,
-        incomplete: 0,
-        malformed: 0,
-        quirks: Vec::new(),
+        counters: Counters {
+            stride: often.then_some(1),
+            received: if often { 19_920 } else { 83 },
+            ..Counters::default()
+        },
         interval,
     }
 }

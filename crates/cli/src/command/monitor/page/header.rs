@@ -4,7 +4,8 @@ use super::controls::Controls;
 use super::table::{put, put_right, slot, width};
 use super::text;
 use super::theme::{Theme, bold, faint};
-use super::view::{Server, View};
+use super::view::View;
+use posewire::stats::ServerStatistics;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
@@ -27,8 +28,8 @@ pub(super) fn draw(buffer: &mut Buffer, line: Rect, view: &View, controls: &Cont
     pieces.push(Piece::new(5, &text::clock(view.elapsed), Style::new()));
     let bytes = text::bytes_per_second(view.bytes_per_second);
     let (come, ranks) = match &view.server {
-        Some(Server { frames, .. }) => (
-            format!("{} frames, {} Hz", frames.received, text::rate(frames.rate_hz)),
+        Some(ServerStatistics { frames, .. }) => (
+            format!("{} frames, {} Hz", frames.counters.received, text::rate(frames.rate_hz)),
             (3, 4),
         ),
         None => (

@@ -3,9 +3,9 @@
 use super::super::protocol::Protocol;
 use super::table::{put, slot, width};
 use super::theme::{Theme, faint};
-use super::view::{Character, Server, State, TypeRow, View};
+use super::view::{Character, State, View};
 use crate::plain::plural;
-use posewire::stats::Quirk;
+use posewire::stats::{Counters, Quirk, SampleCounts, ServerStatistics, StreamStatistics};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
@@ -20,7 +20,7 @@ pub(super) struct Problem {
 }
 
 /// What is counted of a type.
-type Count = fn(&TypeRow) -> u64;
+type Count = fn(&Counters) -> u64;
 
 /// How bad a problem is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -42,6 +42,7 @@ pub(super) fn of(view: &View, selected: &Character) -> Vec<Problem> {
         problems.extend(of_types(frames, view.protocol));
         problems.extend(quirks(frames));
     }
+    problems.extend(of_samples(selected));
     problems.extend(of_types(&selected.types, view.protocol));
     problems.extend(untracked(selected));
     problems.extend(quirks(&selected.types));
@@ -120,9 +121,8 @@ fn of_stream(view: &View) -> Vec<Problem> {
 }
 
 /// What is wrong with the server, and which of its subjects are lost.
-fn of_server(view: &View, server: &Server) -> Vec<Problem> {
-    let says = &server.says;
-    let gone = (!says.connected && !says.name.is_empty())
+fn of_server(view: &View, server: &ServerStatistics) -> Vec<Problem> {
+    let gone = (!server.connected && !server.name.is_empty())
         .then(|| "the server does not answer any more, and is called until it does".to_owned());
     let lost = view
         .characters
@@ -130,11 +130,11 @@ fn of_server(view: &View, server: &Server) -> Vec<Problem> {
         .filter(|subject| subject.comes() && subject.state() == State::Lost);
     let lost: Vec<_> = lost.map(|subject| subject.subject.name.as_str()).collect();
     let untracked = (!lost.is_empty()).then(|| format!("not tracked now: {}", lost.join(", ")));
-    let left_out = counted(says.left_out, |count| {
+    let left_out = counted(server.left_out, |count| {
         format!("{count} bodies or bones in frames are in no description, and were left out")
     });
     let bad = [gone, untracked].into_iter().flatten().map(|text| (Weight::Bad, text));
-    let refused = counted(says.refused, |count| {
+    let refused = counted(server.refused, |count| {
         format!("{count} frames could not be read: they came before the server had answered again")
     });
     let bad = bad.chain(refused.map(|text| (Weight::Bad, text)));
@@ -142,13 +142,13 @@ fn of_server(view: &View, server: &Server) -> Vec<Problem> {
     bad.chain(odd).map(|(weight, text)| Problem { weight, text }).collect()
 }
 
-fn of_types(types: &[TypeRow], protocol: Protocol) -> Vec<Problem> {
+fn of_types(types: &[StreamStatistics], protocol: Protocol) -> Vec<Problem> {
     use Weight::{Bad, Note, Odd};
     let [lost, unread, again, begun] = match protocol {
         Protocol::Mxtp => OF_MXTP,
         Protocol::NatNet => OF_NATNET,
     };
-    let kinds: [(Weight, &str, Count, &str); 7] = [
+    let kinds: [(Weight, &str, Count, &str); 9] = [
         (Bad, "missing", |row| row.missing, lost),
         (
             Bad,
@@ -165,6 +165,13 @@ fn of_types(types: &[TypeRow], protocol: Protocol) -> Vec<Problem> {
             "overtaken on the way, and used all the same",
         ),
         (Odd, "reset", |row| row.reset, begun),
+        (Odd, "rewound", |row| row.rewound, "a recording was wound back"),
+        (
+            Odd,
+            "jumped",
+            |row| row.jumped,
+            "a recording was wound forward, or a number was damaged",
+        ),
         (
             Note,
             "stride",
@@ -174,18 +181,33 @@ fn of_types(types: &[TypeRow], protocol: Protocol) -> Vec<Problem> {
     ];
     let mut problems = Vec::new();
     for (weight, what, count, why) in kinds {
-        let found: Vec<_> = types.iter().filter(|row| count(row) > 0).collect();
+        let found: Vec<_> = types.iter().filter(|row| count(&row.counters) > 0).collect();
         let Some(first) = found.first() else { continue };
         let text = if weight == Note {
-            let stride = first.stride.unwrap_or(1);
+            let stride = first.counters.stride.unwrap_or(1);
             format!("stride {stride}: the sender streams one sample in {stride}; nothing is lost by that")
         } else {
-            let counts = found.iter().map(|row| (*row, count(row)));
+            let counts = found.iter().map(|row| (*row, count(&row.counters)));
             format!("{what} {}: {why}", listed(counts))
         };
         problems.push(Problem { weight, text });
     }
     problems
+}
+
+/// Where it was that samples were lost.
+fn of_samples(selected: &Character) -> Option<Problem> {
+    let SampleCounts { partial, gone, .. } = selected.samples?;
+    let text = match (partial, gone) {
+        (0, 0) => return None,
+        (_, 0) => format!("{partial} samples came in part: datagrams of them were lost on the way"),
+        (0, _) => format!("{gone} samples are gone: lost on the way or never sent, nobody can tell"),
+        _ => format!("{partial} samples came in part, lost on the way; {gone} are gone, lost or never sent"),
+    };
+    Some(Problem {
+        weight: Weight::Bad,
+        text,
+    })
 }
 
 fn untracked(selected: &Character) -> Option<Problem> {
@@ -213,15 +235,16 @@ fn untracked(selected: &Character) -> Option<Problem> {
     })
 }
 
-fn found(row: &TypeRow) -> impl Iterator<Item = Quirk> {
-    row.quirks.iter().map(|(quirk, _)| *quirk)
+fn found(row: &StreamStatistics) -> impl Iterator<Item = Quirk> {
+    row.counters.quirks.iter().map(|(quirk, _)| *quirk)
 }
 
-fn quirks(types: &[TypeRow]) -> impl Iterator<Item = Problem> {
+fn quirks(types: &[StreamStatistics]) -> impl Iterator<Item = Problem> {
     let all: BTreeSet<Quirk> = types.iter().flat_map(found).collect();
     all.into_iter().filter_map(|quirk| {
-        let of = |row: &TypeRow| {
-            row.quirks
+        let of = |row: &StreamStatistics| {
+            row.counters
+                .quirks
                 .iter()
                 .find(|(found, _)| *found == quirk)
                 .map_or(0, |(_, count)| *count)
@@ -237,7 +260,7 @@ fn quirks(types: &[TypeRow]) -> impl Iterator<Item = Problem> {
 }
 
 /// Counts by type, as "12 of type 02, 3 of 20", or "12 frames" of a server.
-fn listed<'a>(counts: impl Iterator<Item = (&'a TypeRow, u64)>) -> String {
+fn listed<'a>(counts: impl Iterator<Item = (&'a StreamStatistics, u64)>) -> String {
     let mut text = String::new();
     for (row, count) in counts {
         if row.kind.message_type().is_none() {
@@ -261,7 +284,7 @@ const OF_MXTP: Reasons = [
     "lost on the way or never sent; prefer a cable to Wi-Fi, and a fixed rate in MVN",
     "could not be read: posewire explain shows what is wrong with the bytes",
     "came twice: does the sender stream here over two ways?",
-    "the sample counter began anew: a new session, or a recording wound back",
+    "the sample counter began anew: a new session",
 ];
 const OF_NATNET: Reasons = [
     "lost on the way or never sent; prefer a cable to Wi-Fi, and stream fewer kinds of data",
@@ -356,6 +379,8 @@ mod tests {
         assert_eq!(problems[0].weight, Weight::Bad);
         let said = |part: &str| problems.iter().any(|problem| problem.text.contains(part));
         assert!(said("missing 12 of type 02"));
+        assert!(said("8 samples came in part") && said("4 are gone"));
+        assert!(said("reset 1 of type 02") && said("rewound 2 of type 02") && said("jumped 3 of type 02"));
         assert!(said(posewire_mxtp::Quirk::ItemCount.meaning()));
         assert!(said("one sample in 4"));
     }

@@ -6,7 +6,7 @@ use super::table::{Column, Table, put, slot, width};
 use super::text;
 use super::theme::{Theme, bold, faint};
 use super::types;
-use super::view::{Character, Server};
+use super::view::Character;
 use crate::plain::printable;
 use crate::render::{delivery, model, unknown_latencies};
 use posewire::histogram::Summary;
@@ -20,20 +20,26 @@ use std::time::Duration;
 pub(super) const LINES: u16 = 11;
 
 /// Draws the server and, where there is room below, where the selected subject is.
-pub(super) fn draw(buffer: &mut Buffer, mut area: Rect, server: Option<&Server>, selected: &Character, theme: Theme) {
+pub(super) fn draw(
+    buffer: &mut Buffer,
+    mut area: Rect,
+    server: Option<&ServerStatistics>,
+    selected: &Character,
+    theme: Theme,
+) {
     let Some(server) = server else {
         let text = "counted once a second: nothing yet";
         put(buffer, slot(area, 0, 1, area.width), text, faint());
         return;
     };
-    draw_name(buffer, top(&mut area, 1), &server.says, theme);
-    for text in [delivery(&server.says), model(&server.says)] {
+    draw_name(buffer, top(&mut area, 1), server, theme);
+    for text in [delivery(server), model(server)] {
         put(buffer, slot(top(&mut area, 1), 0, 1, area.width), &text, Style::new());
     }
     top(&mut area, 1);
     types::draw_frames(buffer, top(&mut area, 2), &server.frames, theme);
     top(&mut area, 1);
-    draw_latencies(buffer, top(&mut area, 4), &server.says);
+    draw_latencies(buffer, top(&mut area, 4), server);
     if area.height >= pose::LINES {
         let gap = u16::from(area.height > pose::LINES);
         top(&mut area, gap);

@@ -5,25 +5,44 @@ use super::pose;
 use super::table::{Column, Table, put, slot};
 use super::text;
 use super::theme::{Theme, faint};
-use super::view::{Character, TypeRow};
-use posewire::stats::DatagramKind;
+use super::transit;
+use super::view::Character;
+use posewire::stats::{DatagramKind, StreamStatistics, Transit};
 use posewire_mxtp::MessageType;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 
-/// Draws a line for each type and, where there is room below, where the character is.
+/// The lines that the types and the way of the samples take.
+pub(super) fn lines(character: &Character) -> u16 {
+    let rows = u16::try_from(character.types.len().max(1)).unwrap_or(u16::MAX);
+    let transit = if shown_transit(character).is_some() {
+        transit::LINES
+    } else {
+        0
+    };
+    rows.saturating_add(1 + transit)
+}
+
+fn shown_transit(character: &Character) -> Option<&Transit> {
+    character.transit.as_ref().filter(|_| !character.types.is_empty())
+}
+
+/// Draws a line for each type, how long the samples were on their way and, where there is room below, where the character is.
 pub(super) fn draw(buffer: &mut Buffer, mut area: Rect, character: &Character, theme: Theme) {
     let lines = 1 + character.types.len().max(1);
     let types = top(&mut area, u16::try_from(lines).unwrap_or(u16::MAX));
     draw_types(buffer, types, &character.types, theme);
+    if let Some(transit) = shown_transit(character) {
+        transit::draw(buffer, top(&mut area, transit::LINES), transit);
+    }
     if area.height > pose::LINES {
         top(&mut area, 1);
         pose::draw(buffer, area, character);
     }
 }
 
-fn draw_types(buffer: &mut Buffer, area: Rect, types: &[TypeRow], theme: Theme) {
+fn draw_types(buffer: &mut Buffer, area: Rect, types: &[StreamStatistics], theme: Theme) {
     if types.is_empty() {
         put(
             buffer,
@@ -46,7 +65,7 @@ fn draw_types(buffer: &mut Buffer, area: Rect, types: &[TypeRow], theme: Theme) 
 }
 
 /// Draws the titles and the numbers of a server's frames.
-pub(super) fn draw_frames(buffer: &mut Buffer, area: Rect, row: &TypeRow, theme: Theme) {
+pub(super) fn draw_frames(buffer: &mut Buffer, area: Rect, row: &StreamStatistics, theme: Theme) {
     let area = Rect {
         x: area.x + u16::from(area.width > 0),
         width: area.width.saturating_sub(1),
@@ -60,8 +79,9 @@ pub(super) fn draw_frames(buffer: &mut Buffer, area: Rect, row: &TypeRow, theme:
     });
 }
 
-fn cell(row: &TypeRow, column: usize, width: usize, theme: Theme) -> (String, Style) {
-    let quirks = row.quirks.iter().map(|(_, count)| count).sum();
+fn cell(row: &StreamStatistics, column: usize, width: usize, theme: Theme) -> (String, Style) {
+    let counters = &row.counters;
+    let quirks = counters.quirks.iter().map(|(_, count)| count).sum();
     let counted = |count: u64, some: Style| {
         let style = if count == 0 { faint() } else { some };
         (text::count(count, width), style)
@@ -72,13 +92,13 @@ fn cell(row: &TypeRow, column: usize, width: usize, theme: Theme) -> (String, St
         1 => plain(name(row.kind, width).to_owned()),
         2 if row.rate_hz == 0.0 => ("0.0".to_owned(), faint()),
         2 => plain(text::rate(row.rate_hz)),
-        3 => counted(row.received, Style::new()),
-        4 => counted(row.missing, theme.bad()),
-        5 => counted(row.duplicate, theme.warn()),
-        6 => counted(row.late, theme.warn()),
-        7 => counted(row.reset, theme.warn()),
-        8 => counted(row.incomplete, theme.bad()),
-        9 => counted(row.malformed, theme.bad()),
+        3 => counted(counters.received, Style::new()),
+        4 => counted(counters.missing, theme.bad()),
+        5 => counted(counters.duplicate, theme.warn()),
+        6 => counted(counters.late, theme.warn()),
+        7 => counted(counters.restarts(), theme.warn()),
+        8 => counted(counters.incomplete, theme.bad()),
+        9 => counted(counters.malformed, theme.bad()),
         10 => counted(quirks, theme.warn()),
         _ if row.interval.count == 0 => ("-".to_owned(), faint()),
         11 => plain(text::milliseconds(row.interval.p50)),

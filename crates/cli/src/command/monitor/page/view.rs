@@ -1,8 +1,7 @@
 //! What the page shows at one moment, as plain data.
 
 use super::super::protocol::Protocol;
-use posewire::histogram::Summary;
-use posewire::stats::{DatagramKind, Quirk, ServerStatistics, Tracking};
+use posewire::stats::{SampleCounts, ServerStatistics, StreamStatistics, Tracking, Transit};
 use posewire_motion::{Frame, Subject, Timecode};
 use posewire_mxtp::MessageType;
 use std::sync::Arc;
@@ -28,16 +27,9 @@ pub(super) struct View {
     /// What to check, when nothing has come for a while.
     pub(super) hint: Option<String>,
     /// The server, for protocols that have one.
-    pub(super) server: Option<Server>,
+    pub(super) server: Option<ServerStatistics>,
     /// By number.
     pub(super) characters: Vec<Character>,
-}
-
-/// A server and its frames.
-#[derive(Clone, Debug)]
-pub(super) struct Server {
-    pub(super) says: ServerStatistics,
-    pub(super) frames: TypeRow,
 }
 
 /// What went wrong with a stream as a whole.
@@ -60,26 +52,13 @@ pub(super) struct Character {
     pub(super) age: Duration,
     pub(super) timecode: Option<Timecode>,
     /// By number.
-    pub(super) types: Vec<TypeRow>,
+    pub(super) types: Vec<StreamStatistics>,
+    /// What became of its samples, where they are its own.
+    pub(super) samples: Option<SampleCounts>,
+    /// How long they were on their way, where they are its own.
+    pub(super) transit: Option<Transit>,
     /// How much of it is tracked, where the protocol says.
     pub(super) tracking: Option<Tracking>,
-}
-
-/// One datagram type of a character.
-#[derive(Clone, Debug)]
-pub(super) struct TypeRow {
-    pub(super) kind: DatagramKind,
-    pub(super) rate_hz: f64,
-    pub(super) stride: Option<u32>,
-    pub(super) received: u64,
-    pub(super) missing: u64,
-    pub(super) duplicate: u64,
-    pub(super) late: u64,
-    pub(super) reset: u64,
-    pub(super) incomplete: u64,
-    pub(super) malformed: u64,
-    pub(super) quirks: Vec<(Quirk, u64)>,
-    pub(super) interval: Summary,
 }
 
 /// Whether a character still moves.
@@ -129,7 +108,7 @@ impl Character {
     }
 
     /// The type that comes most often: its rate and stride are the character's.
-    pub(super) fn fastest(&self) -> Option<&TypeRow> {
+    pub(super) fn fastest(&self) -> Option<&StreamStatistics> {
         self.types
             .iter()
             .max_by(|one, other| one.rate_hz.total_cmp(&other.rate_hz))

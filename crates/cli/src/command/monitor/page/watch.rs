@@ -2,8 +2,8 @@
 
 use super::super::board::Board;
 use super::super::silence::QUIET_AFTER;
-use super::view::{Character, Server, Troubles, TypeRow, View};
-use posewire::stats::{ServerStatistics, Statistics, StreamStatistics, SubjectStatistics};
+use super::view::{Character, Troubles, View};
+use posewire::stats::{Statistics, SubjectStatistics};
 use posewire_motion::Frame;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -53,7 +53,7 @@ impl Watch {
         if let Some(statistics) = &self.statistics {
             view.datagrams = statistics.datagrams;
             view.troubles = troubles(statistics);
-            view.server = statistics.server.as_deref().map(server);
+            view.server = statistics.server.as_deref().cloned();
         }
         view
     }
@@ -125,7 +125,9 @@ fn described_character(of_subject: &SubjectStatistics) -> Character {
         frame: None,
         age: Duration::ZERO,
         timecode: of_subject.timecode,
-        types: of_subject.streams.iter().map(type_row).collect(),
+        types: of_subject.streams.clone(),
+        samples: of_subject.samples,
+        transit: of_subject.transit,
         tracking: of_subject.tracking,
     }
 }
@@ -137,32 +139,9 @@ fn bare_character(frame: &Arc<Frame>) -> Character {
         age: Duration::ZERO,
         timecode: None,
         types: Vec::new(),
+        samples: None,
+        transit: None,
         tracking: None,
-    }
-}
-
-fn server(of: &ServerStatistics) -> Server {
-    Server {
-        says: of.clone(),
-        frames: type_row(&of.frames),
-    }
-}
-
-fn type_row(stream: &StreamStatistics) -> TypeRow {
-    let counters = &stream.counters;
-    TypeRow {
-        kind: stream.kind,
-        rate_hz: stream.rate_hz,
-        stride: counters.stride,
-        received: counters.received,
-        missing: counters.missing,
-        duplicate: counters.duplicate,
-        late: counters.late,
-        reset: counters.restarts(),
-        incomplete: counters.incomplete,
-        malformed: counters.malformed,
-        quirks: counters.quirks.clone(),
-        interval: stream.interval,
     }
 }
 

@@ -53,13 +53,13 @@ fn what_is_lost_stands_out_and_is_named() {
 #[test]
 fn unknown_latencies_say_why() {
     let mut view = example::view();
-    let server = &mut view.server.as_mut().unwrap().says;
+    let server = view.server.as_mut().unwrap();
     server.latencies.camera_to_host = None;
     assert_shows(
         &picture(SMALL, &view, &with(Pane::Stream)),
         &["unknown: the cameras do not say when they exposed"],
     );
-    let server = &mut view.server.as_mut().unwrap().says;
+    let server = view.server.as_mut().unwrap();
     server.version = Version::new(2, 7);
     server.latencies.software = None;
     assert_shows(
@@ -122,7 +122,7 @@ fn silence_is_explained_beside_what_the_server_says() {
 #[test]
 fn a_server_that_has_gone_is_a_problem() {
     let mut view = example::view();
-    view.server.as_mut().unwrap().says.connected = false;
+    view.server.as_mut().unwrap().connected = false;
     let shown = picture(LARGE, &view, &with(Pane::Stream));
     assert_shows(&shown, &["✗ does not answer", "the server does not answer any more"]);
 }

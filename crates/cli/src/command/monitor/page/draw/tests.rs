@@ -64,6 +64,10 @@ fn a_small_terminal_says_who_is_there_and_what_came() {
         ],
     );
     assert_shows(&picture, &["pelvis", "0.930", "centre of mass"]);
+    assert_shows(
+        &picture,
+        &["latency   p50 1.30, p99 3.90, max 11.70 ms", "as far off as"],
+    );
 }
 
 #[test]

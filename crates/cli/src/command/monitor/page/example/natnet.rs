@@ -1,7 +1,7 @@
 //! A made-up NatNet server.
 
 use super::super::super::protocol::Protocol;
-use super::super::view::{Character, Server, TypeRow, View};
+use super::super::view::{Character, View};
 use posewire::histogram::Summary;
 use posewire::stats::{
     Clock, Counters, DatagramKind, Latencies, ModelCounts, ServerStatistics, StreamStatistics, Tracking,
@@ -33,7 +33,7 @@ pub(in super::super) fn view() -> View {
     }
 }
 
-fn server() -> Server {
+fn server() -> ServerStatistics {
     let ms = |milliseconds: u64| Duration::from_millis(milliseconds);
     let interval = Summary {
         count: 14_519,
@@ -41,7 +41,7 @@ fn server() -> Server {
         p99: ms(9),
         max: ms(12),
     };
-    let says = ServerStatistics {
+    ServerStatistics {
         name: "Motive".to_owned(),
         app_version: Version::new(3, 1),
         address: ([10, 0, 0, 7], 1510).into(),
@@ -55,6 +55,7 @@ fn server() -> Server {
             rate_hz: 120.0,
             counters: Counters {
                 received: 14_520,
+                stride: Some(1),
                 ..Counters::default()
             },
             interval,
@@ -79,22 +80,7 @@ fn server() -> Server {
         left_out: 0,
         refused: 0,
         better: None,
-    };
-    let frames = TypeRow {
-        kind: DatagramKind::NatNetFrame,
-        rate_hz: 120.0,
-        stride: Some(1),
-        received: 14_520,
-        missing: 0,
-        duplicate: 0,
-        late: 0,
-        reset: 0,
-        incomplete: 0,
-        malformed: 0,
-        quirks: Vec::new(),
-        interval,
-    };
-    Server { says, frames }
+    }
 }
 
 fn subject(id: u32, name: &str, segments: &[&str], position: Vec<Option<DVec3>>, marker: Option<u32>) -> Character {
@@ -138,6 +124,8 @@ fn subject(id: u32, name: &str, segments: &[&str], position: Vec<Option<DVec3>>,
         age: Duration::from_millis(4),
         timecode: None,
         types: Vec::new(),
+        samples: None,
+        transit: None,
         tracking: (!segments.is_empty()).then_some(tracking),
     }
 }

@@ -1,0 +1,170 @@
+//! Who sends what.
+
+use super::Check;
+use super::finding::Finding;
+use crate::{Datagram, Wire};
+use posewire_motion::Stamp;
+use posewire_mxtp::Header;
+use posewire_natnet::MessageId;
+use std::collections::BTreeMap;
+use std::net::SocketAddr;
+
+/// Who sends which character, or frames to a group.
+#[derive(Debug, Default)]
+pub(super) struct Senders {
+    heard: BTreeMap<Numbering, BTreeMap<SocketAddr, Heard>>,
+}
+
+/// What shares one numbering.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Numbering {
+    /// The samples of a character of MXTP.
+    Character(u8),
+    /// The frames that NatNet servers send to a group.
+    Frames,
+}
+
+/// When a sender was heard.
+#[derive(Clone, Copy, Debug)]
+struct Heard {
+    first: Stamp,
+    last: Stamp,
+    count: u64,
+}
+
+impl Senders {
+    pub(super) fn datagram(&mut self, datagram: &Datagram) {
+        let Some(what) = stream_of(datagram) else {
+            return;
+        };
+        let senders = self.heard.entry(what).or_default();
+        if senders.len() >= MOST && !senders.contains_key(&datagram.from) {
+            return;
+        }
+        let at = datagram.received;
+        let first = || Heard {
+            first: at,
+            last: at,
+            count: 0,
+        };
+        let heard = senders.entry(datagram.from).or_insert_with(first);
+        heard.first = heard.first.min(at);
+        heard.last = heard.last.max(at);
+        heard.count += 1;
+    }
+
+    pub(super) fn findings(&self) -> impl Iterator<Item = Finding> {
+        self.heard.iter().filter_map(|(what, senders)| {
+            let beside = beside_each_other(senders);
+            let (Some(one), Some(other)) = (beside.first(), beside.get(1)) else {
+                return None;
+            };
+            let more = match beside.len() - 2 {
+                0 => String::new(),
+                more => format!(" and {more} more"),
+            };
+            let same = match what {
+                Numbering::Character(character) => format!("character {character}"),
+                Numbering::Frames => "frames to one group".to_owned(),
+            };
+            let what_is = format!("{one} and {other}{more} send {same} at the same time.");
+            let finding = Finding::new(Check::TwoSenders, what_is);
+            Some(match what {
+                Numbering::Character(character) => finding.at(format_args!("character {character}")),
+                Numbering::Frames => finding,
+            })
+        })
+    }
+}
+
+/// Whose frames or which character's samples a datagram is of. What a NatNet server sends to us alone is of one server.
+fn stream_of(datagram: &Datagram) -> Option<Numbering> {
+    match datagram.wire {
+        Wire::MxtpUdp | Wire::MxtpTcp => Header::decode(&datagram.bytes)
+            .ok()
+            .map(|header| Numbering::Character(header.character)),
+        Wire::NatNetData => {
+            let is_frame = datagram.bytes.first_chunk() == Some(&MessageId::FRAME.0.to_le_bytes());
+            is_frame.then_some(Numbering::Frames)
+        }
+        Wire::NatNetCommand => None,
+    }
+}
+
+/// Those that were heard while another was: a sender that was started anew has another port, and follows itself.
+fn beside_each_other(senders: &BTreeMap<SocketAddr, Heard>) -> Vec<SocketAddr> {
+    let is_beside = |(address, heard): &(&SocketAddr, &Heard)| {
+        let overlaps = |other: &Heard| other.first < heard.last && heard.first < other.last;
+        let mut others = senders.iter().filter(|(other, _)| other != address);
+        heard.count > 1 && others.any(|(_, other)| other.count > 1 && overlaps(other))
+    };
+    senders.iter().filter(is_beside).map(|(address, _)| *address).collect()
+}
+
+/// More senders than this are as bad.
+const MOST: usize = 64;
+
+#[cfg(test)]
+mod tests {
+    use super::super::test::{datagram, mxtp};
+    use super::*;
+
+    fn found(sent: &[(&str, u8, i64)]) -> Vec<String> {
+        let mut senders = Senders::default();
+        for &(from, character, at) in sent {
+            let mut datagram = datagram(from, &mxtp(character, 1));
+            datagram.received = Stamp(at);
+            senders.datagram(&datagram);
+        }
+        senders.findings().map(|finding| finding.what).collect()
+    }
+
+    #[test]
+    fn two_senders_of_one_character_are_both_named() {
+        let found = found(&[
+            ("10.0.0.1:5000", 0, 1),
+            ("10.0.0.2:5000", 0, 2),
+            ("10.0.0.1:5000", 0, 3),
+            ("10.0.0.2:5000", 0, 4),
+        ]);
+        assert_eq!(
+            found,
+            ["10.0.0.1:5000 and 10.0.0.2:5000 send character 0 at the same time."]
+        );
+    }
+
+    #[test]
+    fn two_senders_of_different_characters_do_not_disturb_each_other() {
+        let found = found(&[
+            ("10.0.0.1:5000", 0, 1),
+            ("10.0.0.2:5000", 1, 2),
+            ("10.0.0.1:5000", 0, 3),
+            ("10.0.0.2:5000", 1, 4),
+        ]);
+        assert!(found.is_empty());
+    }
+
+    #[test]
+    fn a_sender_that_was_started_anew_follows_itself() {
+        let found = found(&[
+            ("10.0.0.1:5000", 0, 1),
+            ("10.0.0.1:5000", 0, 2),
+            ("10.0.0.1:5001", 0, 3),
+            ("10.0.0.1:5001", 0, 4),
+        ]);
+        assert!(found.is_empty());
+    }
+
+    #[test]
+    fn two_servers_that_send_to_one_group_are_found() {
+        let mut senders = Senders::default();
+        for (place, from) in ["10.0.0.1:1511", "10.0.0.2:1511"].repeat(3).into_iter().enumerate() {
+            let mut datagram = datagram(from, b"\x07\0\x04\0\0\0\0\0");
+            (datagram.wire, datagram.received) = (Wire::NatNetData, Stamp(place as i64));
+            senders.datagram(&datagram);
+        }
+        let found: Vec<_> = senders.findings().collect();
+        assert_eq!(found.len(), 1);
+        assert!(found[0].what.contains("to one group"), "{}", found[0].what);
+    }
+}
