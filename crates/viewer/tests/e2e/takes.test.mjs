@@ -55,6 +55,8 @@ test('a file is scrubbed and stepped to exact frames', async (context) => {
   await tab.mouse.click(line.x + line.width / 3, line.y + 8);
   const wanted = take.frames.filter(({ sample }) => sample <= Math.floor((599 / 3) + 0.0005)).length - 1;
   await until(async () => Math.abs((await shown(tab)).frame - wanted) <= 1, `frame ${wanted} or a neighbour`);
+  await tab.getByRole('button', { name: '30 samples missing' }).click();
+  await assertFrame(tab, 119);
   await picture(tab, 'take');
   assertQuiet(tab);
 });
@@ -80,13 +82,12 @@ test('a take plays at its speed, and repeats a range', async (context) => {
   await tab.keyboard.press('u');
   await tab.keyboard.press('Home');
   await tab.getByLabel('Speed').selectOption('2');
-  await tab.locator('#stage-canvas').focus().catch(() => undefined);
-  const [from, start] = await tab.evaluate(() => [window.posewire.player.playhead.position, performance.now()]);
+  const begun = performance.now();
   await tab.getByRole('button', { name: 'Play' }).click();
-  await tab.waitForTimeout(1000);
-  const [to, end] = await tab.evaluate(() => [window.posewire.player.playhead.position, performance.now()]);
-  const speed = (to - from) / ((end - start) / 1000);
-  assert.ok(speed > 1.2 && speed < 2.1, `played at ${speed} times its speed`);
+  await until(() => tab.evaluate(() => window.posewire.player.playhead.position >= 4), 'four seconds of the take');
+  const taken = (performance.now() - begun) / 1000;
+  // Twice its speed and no faster; how much slower it is seen here is up to the machine.
+  assert.ok(taken > 1.7 && taken < 3.9, `four seconds were played in ${taken}`);
   assertQuiet(tab);
 });
 

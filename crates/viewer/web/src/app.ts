@@ -10,6 +10,7 @@ import { performers } from './panel/performers';
 import { recorder } from './panel/recorder';
 import { sheet } from './panel/sheet';
 import { streams } from './panel/streams';
+import { takes } from './panel/takes';
 import { clock as clockText, secondsOfDay, timeOfDay } from './model/format';
 import { findChannel } from './plots/channels';
 import { PlotPanel } from './plots/panel';
@@ -17,7 +18,7 @@ import { Traces } from './plots/traces';
 import type { Series, Tick } from './protocol/decode';
 import { Live, type Connection } from './protocol/live';
 import type { TextMessage } from './protocol/statistics';
-import type { Scene, SubjectRecord } from './protocol/types';
+import type { Scene, SubjectRecord, Take } from './protocol/types';
 import { Stage, subjectColor } from './stage';
 import { Player } from './transport/player';
 import { type Transport, transport } from './transport/transport';
@@ -80,7 +81,8 @@ export class App {
       hide: (id: number) => this.controls.hide(id),
       color,
     };
-    const blocks = [performers(room, actions), recorder(room, toast), streams(room), notices(room)];
+    const go = (take: Take, frame: number): void => this.player?.goToOf(take, frame);
+    const blocks = [performers(room, actions), takes(room, go), recorder(room, toast), streams(room), notices(room)];
     byId('sheet').append(...blocks.map((block) => block.element));
     return [
       ...blocks.map((block) => block.refresh),

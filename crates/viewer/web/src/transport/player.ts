@@ -49,10 +49,14 @@ export class Player {
 
   /** Goes to a frame of the leading take, and stays there. */
   goTo(frame: number): void {
-    if (!this.leading) return;
+    if (this.leading) this.goToOf(this.leading, frame);
+  }
+
+  /** The same of any take. */
+  goToOf(take: Take, frame: number): void {
     this.playhead.playing = false;
-    const last = Math.max(this.leading.frames - 1, 0);
-    this.seek(frameTime(this.leading, Math.min(Math.max(Math.round(frame), 0), last)));
+    const last = Math.max(take.frames - 1, 0);
+    this.seek(frameTime(take, Math.min(Math.max(Math.round(frame), 0), last)));
   }
 
   step(frames: number): void {
@@ -60,10 +64,10 @@ export class Player {
   }
 
   private run(now: number): void {
-    // A page that was asleep goes on where it was.
-    const passed = Math.min((now - (this.before || now)) / 1000, 0.25);
+    // A page that was asleep goes on where it was; one that draws slowly keeps its time.
+    const passed = (now - (this.before || now)) / 1000;
     this.before = now;
-    if (this.playhead.advance(passed)) {
+    if (this.playhead.advance(passed > ASLEEP ? 0 : passed)) {
       this.direction = 1;
       this.update();
     }
@@ -84,6 +88,9 @@ export class Player {
     if (records.length > 0) this.show(records);
   }
 }
+
+/** Seconds without a frame of the screen after which a page was asleep. */
+const ASLEEP = 3;
 
 /** The last frame that has come by a time, the first or last outside of the take. */
 function nearestFrameBefore(take: Take, seconds: number): number {
