@@ -1,4 +1,4 @@
-import { Color, type Material, MeshBasicMaterial, MeshStandardMaterial, type Object3D, ShaderMaterial } from 'three';
+import { Color, type Material, MeshBasicMaterial, MeshLambertMaterial, MeshStandardMaterial, type Object3D, ShaderMaterial } from 'three';
 import { Boxes } from './batch/boxes';
 import { Disks } from './batch/disks';
 import { Limbs } from './batch/limbs';
@@ -8,8 +8,8 @@ import { Lines } from './batch/lines';
 export class Brush {
   readonly near = new Limbs({ sides: 18, capRings: 4, shaftRings: 3 }, cloth());
   /** For performers who are small in the picture. */
-  readonly far = new Limbs({ sides: 8, capRings: 2, shaftRings: 1 }, cloth());
-  readonly fine = new Limbs({ sides: 7, capRings: 2, shaftRings: 0 }, cloth());
+  readonly far = new Limbs({ sides: 8, capRings: 2, shaftRings: 1 }, felt());
+  readonly fine = new Limbs({ sides: 7, capRings: 2, shaftRings: 0 }, felt());
   readonly ghost = new Limbs({ sides: 12, capRings: 3, shaftRings: 2 }, mist());
   readonly balls = new Limbs({ sides: 10, capRings: 4, shaftRings: 0 }, new MeshBasicMaterial({ vertexColors: true, toneMapped: false }));
   /** What is inside bodies and shall be seen through them. */
@@ -52,6 +52,11 @@ export class Brush {
 /** What bodies are made of: dull. */
 function cloth(): Material {
   return new MeshStandardMaterial({ vertexColors: true, roughness: 0.62, metalness: 0 });
+}
+
+/** The same without any gloss, for what is small: it costs half. */
+function felt(): Material {
+  return new MeshLambertMaterial({ vertexColors: true });
 }
 
 function inside(): Material {

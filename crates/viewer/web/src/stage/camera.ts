@@ -50,17 +50,26 @@ export class Eye {
     if (goal) this.flyTo(goal, this.camera.position.clone().sub(this.controls.target).add(goal));
   }
 
-  /** Goes along with whoever is at `goal`, from the view that is there. */
-  keepAlong(goal: Vector3): void {
-    this.along = goal.clone();
-  }
-
   /** Looks at points from a side, so that all are seen. `sudden` leaves out the way there. */
   look(preset: Preset, points: Vector3[], sudden = calm()): void {
     const { fov, aspect } = this.camera;
     const direction = preset === 'free' ? bestDirection(points, FREE, fov, aspect) : DIRECTIONS[preset];
     const { target, distance } = fit(points, direction, fov, aspect);
     this.flyTo(target, target.clone().addScaledVector(direction, distance), sudden);
+  }
+
+  /** Whether a point is in the picture, and not at its very edge. */
+  sees(point: Vector3): boolean {
+    const { x, y, z } = point.clone().project(this.camera);
+    return Math.abs(x) < 0.97 && Math.abs(y) < 0.97 && z < 1;
+  }
+
+  /** Moves so far, from the same side and without haste, that all points are seen again. */
+  widen(points: Vector3[]): void {
+    if (this.flight) return;
+    const direction = this.camera.position.clone().sub(this.controls.target).normalize();
+    const { target, distance } = fit(points, direction, this.camera.fov, this.camera.aspect);
+    this.flyTo(target, target.clone().addScaledVector(direction, distance), calm(), 3 * FLIGHT);
   }
 
   view(): Omit<ViewState, 'follow'> {
@@ -81,19 +90,19 @@ export class Eye {
     this.controls.dispose();
   }
 
-  private flyTo(target: Vector3, position: Vector3, sudden = calm()): void {
+  private flyTo(target: Vector3, position: Vector3, sudden = calm(), seconds = FLIGHT): void {
     const now = new Spherical().setFromVector3(toYUp(this.camera.position.clone().sub(this.controls.target)));
     const then = new Spherical().setFromVector3(toYUp(position.clone().sub(target)));
     // The shorter way round.
     now.theta += 2 * Math.PI * Math.round((then.theta - now.theta) / (2 * Math.PI));
-    this.flight = { from: this.controls.target.clone(), to: target.clone(), now, then, done: sudden ? 1 : 0 };
+    this.flight = { from: this.controls.target.clone(), to: target.clone(), now, then, seconds, done: sudden ? 1 : 0 };
     if (sudden) this.fly(0);
   }
 
   private fly(seconds: number): boolean {
     const flight = this.flight;
     if (!flight) return false;
-    flight.done = Math.min(flight.done + seconds / FLIGHT, 1);
+    flight.done = Math.min(flight.done + seconds / flight.seconds, 1);
     const eased = MathUtils.smootherstep(flight.done, 0, 1);
     const { now, then } = flight;
     const at = new Spherical(
@@ -108,7 +117,10 @@ export class Eye {
   }
 
   private goAlong(seconds: number, goal: Vector3 | null): boolean {
-    if (!this.along || !goal) return false;
+    if (!this.along || !goal) {
+      this.along = goal?.clone() ?? null;
+      return false;
+    }
     const share = 1 - Math.exp(-seconds * 7);
     const step = goal.clone().sub(this.along).multiply(new Vector3(share, share, share * 0.3));
     if (step.lengthSq() < 1e-10) return false;
@@ -124,6 +136,7 @@ interface Flight {
   to: Vector3;
   now: Spherical;
   then: Spherical;
+  seconds: number;
   done: number;
 }
 

@@ -46,7 +46,9 @@ export class Stage {
   private size = { width: 1, height: 1 };
   private posesChanged = true;
   private viewChanged = true;
-  private framedAt: number | null = null;
+  /** From where everybody is looked at, and for how many that view was made. */
+  private side: Preset = 'free';
+  private framed = 0;
   /** What the picture is drawn with now. */
   private step: QualityStep;
   private restedFor = 0;
@@ -72,6 +74,7 @@ export class Stage {
     this.resized = new ResizeObserver(() => this.resize());
     this.resized.observe(canvas);
     this.resize();
+    canvas.addEventListener('webglcontextrestored', this.onRestored);
     canvas.addEventListener('pointerdown', this.onDown);
     canvas.addEventListener('pointerup', this.onUp);
     this.pulse.start();
@@ -118,10 +121,10 @@ export class Stage {
 
   /** Looks at whom it follows, or else at all, from a side. */
   preset(preset: Preset): void {
-    this.eye.chosen = true;
-    const goal = this.goal();
-    this.eye.look(preset, this.outline(goal ? this.followed : null));
-    if (goal) this.eye.keepAlong(goal);
+    this.side = preset;
+    this.eye.chosen = this.goal() !== null;
+    this.eye.look(preset, this.outline(this.goal() ? this.followed : null));
+    this.viewChanged = true;
   }
 
   view(): ViewState {
@@ -131,8 +134,6 @@ export class Stage {
   setView(view: ViewState): void {
     this.eye.setView(view);
     this.followed = view.follow;
-    const goal = this.goal();
-    if (goal) this.eye.keepAlong(goal);
     this.viewChanged = true;
   }
 
@@ -156,6 +157,7 @@ export class Stage {
   dispose(): void {
     this.pulse.stop();
     this.resized.disconnect();
+    this.canvas.removeEventListener('webglcontextrestored', this.onRestored);
     this.canvas.removeEventListener('pointerdown', this.onDown);
     this.canvas.removeEventListener('pointerup', this.onUp);
     for (const part of [this.eye, this.brush, this.floor, this.sky, this.lights, this.tags, this.renderer]) part.dispose();
@@ -218,13 +220,14 @@ export class Stage {
     this.lights.attend(one.centre, one.radius);
   }
 
-  /** Until somebody chooses a view, everyone is in the picture: at once at first, then whenever there are more. */
+  /** Until somebody moves the view by hand, everyone is in it: at first, when there are more, when one walks out. */
   private frameEverybody(): void {
-    const seen = this.shown().filter((performer) => performer.centre() !== null).length;
-    if (this.eye.chosen || seen === 0 || this.framedAt === seen) return;
-    this.eye.look('free', this.outline(null), this.framedAt === null || undefined);
-    this.framedAt = seen;
-    this.viewChanged = true;
+    if (this.eye.chosen || !this.posesChanged) return;
+    const places = this.shown().flatMap((performer) => performer.centre() ?? []);
+    if (places.length === 0) return;
+    if (this.framed !== places.length) this.eye.look(this.side, this.outline(null), this.framed === 0 || undefined);
+    else if (!places.every((place) => this.eye.sees(place))) this.eye.widen(this.outline(null));
+    this.framed = places.length;
   }
 
   private shown(): Performer[] {
@@ -267,6 +270,10 @@ export class Stage {
     this.lights.shadows = shadows;
     this.posesChanged = true;
   }
+
+  private readonly onRestored = (): void => {
+    this.posesChanged = true;
+  };
 
   private readonly onDown = (event: PointerEvent): void => {
     this.pressed = event.isPrimary ? { x: event.clientX, y: event.clientY } : null;

@@ -68,7 +68,7 @@ export class Performer {
   /** The place over the highest of it, for its name. */
   top(): Vector3 | null {
     const head = this.roles?.head ?? -1;
-    if (this.pose.seen[head]) return this.origin(head).add(new Vector3(0, 0, 0.34));
+    if (this.pose.seen[head]) return this.origin(head).add(new Vector3(0, 0, 0.25));
     const highest = this.shown().reduce<Vector3 | null>((best, at) => (best && best.z >= at.z ? best : at), null);
     return highest?.clone().add(new Vector3(0, 0, 0.16)) ?? null;
   }

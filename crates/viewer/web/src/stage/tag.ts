@@ -20,7 +20,8 @@ export class Tag {
   constructor() {
     const material = new SpriteMaterial({ transparent: true, depthTest: false, depthWrite: false, sizeAttenuation: false, toneMapped: false });
     this.sprite = new Sprite(material);
-    this.sprite.center.set(0.5, 0);
+    // A little above its place on the screen, so that it hides nobody from above either.
+    this.sprite.center.set(0.5, -0.55);
     this.sprite.renderOrder = 30;
     this.sprite.visible = false;
   }
