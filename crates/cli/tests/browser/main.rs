@@ -39,6 +39,16 @@ fn a_page_that_is_stopped_disturbs_nobody() {
     run("stopped.test.mjs");
 }
 
+#[test]
+fn takes_are_recorded_from_the_page() {
+    run("recorder.test.mjs");
+}
+
+#[test]
+fn pictures_are_taken_for_the_documentation() {
+    run("pictures.test.mjs");
+}
+
 /// Runs one script, one at a time: a browser that draws in software takes a whole machine.
 fn run(script: &str) {
     static TURN: Mutex<()> = Mutex::new(());

@@ -61,9 +61,9 @@ test('axe has no objection to takes, nor on a phone', async (context) => {
 });
 
 test('everything is reached by keys, with the focus in sight', async (context) => {
-  const server = await view(context, ['synthetic:walk?people=1&rate=60']);
+  const server = await view(context, ['synthetic:walk?people=2&rate=60']);
   const tab = await open(await browser(context), server.url);
-  await waitForStates(tab, ['LIVE']);
+  await waitForStates(tab, ['LIVE', 'LIVE']);
   const reached = new Set();
   for (let press = 0; press < 40; press++) {
     await tab.keyboard.press('Tab');

@@ -102,7 +102,7 @@ export class Live {
 }
 
 /**
- * Seconds until the next attempt: from 0.25 s it doubles to 4 s. `chance`, 0 to 1, spreads the pages of a room, which
+ * Seconds until the next attempt: from 0.25 s it doubles to 4 s, give or take a quarter. `chance`, 0 to 1, spreads the pages of a room, which
  * all lost the server at the same moment.
  */
 export function backoff(failures: number, chance: number): number {
