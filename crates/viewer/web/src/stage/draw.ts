@@ -39,7 +39,7 @@ function presence(performer: Performer, segment: number): number {
 }
 
 function drawParts(performer: Performer, brush: Brush, colors: Tones, pixels: number): void {
-  const body = pixels < SMALL ? brush.far : brush.near;
+  const body = pixels < TINY ? brush.tiny : pixels < SMALL ? brush.far : brush.near;
   for (const part of performer.parts) {
     if (part.fine && pixels < TINY) continue;
     const seen = presence(performer, part.segment);

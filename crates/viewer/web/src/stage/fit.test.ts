@@ -16,6 +16,9 @@ test.each([1.6, 0.46])('all points are seen at an aspect of %f', (aspect) => {
   for (const { x, y } of seen) expect(Math.max(Math.abs(x), Math.abs(y))).toBeLessThan(0.81);
   const widest = Math.max(...seen.flatMap(({ x, y }) => [Math.abs(x), Math.abs(y)]));
   expect(widest).toBeGreaterThan(0.78);
+  for (const values of [seen.map(({ x }) => x), seen.map(({ y }) => y)]) {
+    expect(Math.min(...values) + Math.max(...values)).toBeCloseTo(0, 3);
+  }
 });
 
 test('a row is looked at from where it is close, unless the first direction is about as good', () => {

@@ -11,14 +11,17 @@ export function fit(points: Vector3[], direction: Vector3, fov: number, aspect: 
   const right = new Vector3(0, 0, 1).cross(direction).normalize();
   const up = direction.clone().cross(right);
   const tall = Math.tan(MathUtils.degToRad(fov / 2)) * ROOM;
-  const across = span(points, direction, right, tall * aspect);
-  const over = span(points, direction, up, tall);
-  const depth = Math.max(...points.map((point) => point.dot(direction)));
-  const away = Math.max(across.distance, over.distance, depth + NEAREST);
-  const middle = mean(points.map((point) => point.dot(direction)));
+  const depths = points.map((point) => point.dot(direction));
+  const [across, over] = [right, up].map((axis) => points.map((point) => point.dot(axis))) as [number[], number[]];
+  const away = Math.max(
+    nearest(across, depths, tall * aspect),
+    nearest(over, depths, tall),
+    Math.max(...depths) + NEAREST,
+  );
+  const middle = mean(depths);
   const target = new Vector3()
-    .addScaledVector(right, across.middle)
-    .addScaledVector(up, over.middle)
+    .addScaledVector(right, balanced(across, depths, away))
+    .addScaledVector(up, balanced(over, depths, away))
     .addScaledVector(direction, middle);
   return { target, distance: away - middle };
 }
@@ -36,15 +39,27 @@ const ROOM = 0.8;
 const NEAREST = 1.2;
 
 /**
- * Along one axis of the picture: the place of the eye that is nearest, and how far along the direction it is then.
+ * How far along the direction an eye must at least be to see points that are `places` across and `depths` along.
  *
- * A point at `s` across and `d` along is seen by an eye at `m` across when `distance >= d + |s - m| / slope`: the best
- * is where the lines of both sides meet.
+ * An eye at `m` across sees one when its distance is `d + |s - m| / slope` or more: the best is where the lines of both
+ * sides meet.
  */
-function span(points: Vector3[], direction: Vector3, axis: Vector3, slope: number): { middle: number; distance: number } {
-  const high = Math.max(...points.map((point) => point.dot(direction) + point.dot(axis) / slope));
-  const low = Math.max(...points.map((point) => point.dot(direction) - point.dot(axis) / slope));
-  return { middle: ((high - low) / 2) * slope, distance: (high + low) / 2 };
+function nearest(places: number[], depths: number[], slope: number): number {
+  const side = (sign: number) => Math.max(...places.map((place, at) => (depths[at] ?? 0) + (sign * place) / slope));
+  return (side(1) + side(-1)) / 2;
+}
+
+/** Where across an eye so far away must be that both edges of its picture have the same room left. */
+function balanced(places: number[], depths: number[], away: number): number {
+  const beyond = (middle: number, sign: number) =>
+    Math.max(...places.map((place, at) => (sign * (place - middle)) / (away - (depths[at] ?? 0))));
+  let [low, high] = [Math.min(...places), Math.max(...places)];
+  for (let step = 0; step < 24; step += 1) {
+    const middle = (low + high) / 2;
+    if (beyond(middle, 1) > beyond(middle, -1)) low = middle;
+    else high = middle;
+  }
+  return (low + high) / 2;
 }
 
 function mean(values: number[]): number {

@@ -30,7 +30,7 @@ export const LOOKS: Record<Theme, Look> = {
     zenith: new Color('#0b0e13'),
     horizon: new Color('#161b22'),
     floor: new Color('#262d37'),
-    line: new Color('#4a5666'),
+    line: new Color('#56647a'),
     shade: new Color('#05070a'),
     shadow: 0.62,
     skyLight: new Color('#c3d2ea'),
