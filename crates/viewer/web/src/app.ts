@@ -89,7 +89,6 @@ export class App {
       clock(byId('clock'), room, () => this.takeClock()),
       connection(byId('connection'), room),
       empty(byId('empty'), room),
-      this.controls.refresh,
       sheet(byId('panel'), byId<HTMLButtonElement>('handle'), byId('summary'), room),
     ];
   }

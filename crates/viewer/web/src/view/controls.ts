@@ -5,7 +5,6 @@ import { byId } from '../dom/h';
 import { nameOf } from '../panel/performers';
 import type { Preset } from '../stage';
 import { savePicture } from './screenshot';
-import { Company } from './company';
 import { type SharedView, readHash, writeHash } from './share';
 import { type Theme, initialTheme, showTheme } from './theme';
 import { toast } from './toast';
@@ -15,11 +14,9 @@ import { openHelp } from './help';
 export class ViewControls {
   private readonly show: Record<Shown, boolean> = { names: true, axes: false, trails: false, com: false, markers: true };
   private theme: Theme = initialTheme();
-  private readonly company: Company;
   private readonly showTools: (state: ToolState) => void;
 
   constructor(private readonly app: App) {
-    this.company = new Company(app.room, app.stage);
     const actions = this.actions();
     this.showTools = tools(byId('tools'), actions);
     pageActions(byId('actions'), actions);
@@ -34,12 +31,8 @@ export class ViewControls {
     this.apply();
   }
 
-  /** Keeps a performer who is alone in the picture. */
-  refresh = (): void => this.company.refresh();
-
   follow = (id: number | null): void => {
     const { room, stage } = this.app;
-    this.company.leave();
     if (room.followed === id) return;
     room.followed = id;
     room.revision++;
@@ -64,10 +57,7 @@ export class ViewControls {
     this.app.refresh();
   };
 
-  preset = (preset: Preset): void => {
-    this.company.leave();
-    this.app.stage.preset(preset);
-  };
+  preset = (preset: Preset): void => this.app.stage.preset(preset);
 
   toggle = (what: Shown): void => {
     this.show[what] = !this.show[what];
@@ -139,7 +129,6 @@ export class ViewControls {
     if (view.show) for (const what of SHOWN) this.show[what] = view.show.includes(what);
     for (const id of view.hidden ?? []) if (room.subject(id)) room.hidden.add(id);
     const follow = view.follow !== undefined && room.subject(view.follow) ? view.follow : null;
-    if (view.camera || follow !== null) this.company.leave();
     if (view.camera) stage.setView({ ...view.camera, follow });
     else if (follow !== null) stage.follow(follow);
     if (follow !== null) room.followed = follow;
