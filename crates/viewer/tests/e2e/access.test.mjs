@@ -14,7 +14,9 @@ async function assertAccessible(tab, where) {
   // Not as a script of the page, which its security policy would refuse.
   await tab.evaluate(readFileSync(AXE, 'utf8'));
   const found = await tab.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
-  const said = found.violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html, failureSummary }) => `${html}\n${failureSummary}`).join('\n')}`);
+  const said = found.violations.map(
+    ({ id, nodes }) => `${id}: ${nodes.map(({ html, failureSummary }) => `${html}\n${failureSummary}`).join('\n')}`,
+  );
   assert.deepEqual(said, [], where);
 }
 
@@ -54,7 +56,11 @@ test('axe has no objection to takes, nor on a phone', async (context) => {
   const opened = await browser(context);
   const tab = await open(opened, server.url);
   await assertAccessible(tab, 'take');
-  const phone = await open(opened, `${server.url}#plot=0:position/Pelvis/z`, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+  const phone = await open(opened, `${server.url}#plot=0:position/Pelvis/z`, {
+    viewport: { width: 390, height: 844 },
+    hasTouch: true,
+    isMobile: true,
+  });
   await assertAccessible(phone, 'phone');
   await picture(phone, 'phone-take');
   assertQuiet(phone);
@@ -71,13 +77,31 @@ test('everything is reached by keys, with the focus in sight', async (context) =
       const element = document.activeElement;
       const { outlineStyle, outlineWidth } = getComputedStyle(element);
       const name = element.getAttribute('aria-label') ?? element.textContent;
-      return { name: name.trim(), visible: element === document.body || (outlineStyle !== 'none' && parseFloat(outlineWidth) >= 2) };
+      return {
+        name: name.trim(),
+        visible: element === document.body || (outlineStyle !== 'none' && parseFloat(outlineWidth) >= 2),
+      };
     });
     assert.ok(visible, `the focus on “${name}” is not seen`);
     reached.add(name);
   }
-  const wanted = ['Save a picture', 'Copy the address of this view', 'Light or dark', 'Keys and help', 'Free', 'Top', 'Names', 'Axes', 'Plots', 'Follow Ada', 'Hide Ada'];
-  assert.deepEqual(wanted.filter((name) => !reached.has(name)), []);
+  const wanted = [
+    'Save a picture',
+    'Copy the address of this view',
+    'Light or dark',
+    'Keys and help',
+    'Free',
+    'Top',
+    'Names',
+    'Axes',
+    'Plots',
+    'Follow Ada',
+    'Hide Ada',
+  ];
+  assert.deepEqual(
+    wanted.filter((name) => !reached.has(name)),
+    [],
+  );
   await tab.keyboard.press('f');
   assert.equal(await tab.getByRole('button', { name: 'Follow Ada' }).getAttribute('aria-pressed'), 'true');
   await tab.keyboard.press('l');
@@ -87,7 +111,11 @@ test('everything is reached by keys, with the focus in sight', async (context) =
 
 test('a phone has the performers in a sheet, and nothing is wider than its screen', async (context) => {
   const server = await view(context, ['synthetic:walk?people=3&rate=60']);
-  const phone = await open(await browser(context), server.url, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+  const phone = await open(await browser(context), server.url, {
+    viewport: { width: 390, height: 844 },
+    hasTouch: true,
+    isMobile: true,
+  });
   const sheet = phone.locator('#sheet');
   assert.equal(await sheet.isVisible(), false);
   await phone.getByRole('button', { name: '3 performers' }).tap();

@@ -68,7 +68,10 @@ test('a page whose server goes says so, and comes back with it', async (context)
   const tab = await open(await browser(context), first.url);
   await waitForStates(tab, ['LIVE']);
   await stop(first);
-  await until(async () => (await tab.locator('#connection').textContent()).startsWith('Connection lost'), 'the loss to be said');
+  await until(
+    async () => (await tab.locator('#connection').textContent()).startsWith('Connection lost'),
+    'the loss to be said',
+  );
   await waitForStates(tab, ['UNKNOWN']);
   await picture(tab, 'disconnected');
   const { host } = new URL(first.url);

@@ -12,7 +12,9 @@ test('pictures are taken of performers, of a take and of a phone', { timeout: 18
   const server = await view(context, ['mxtp://127.0.0.1:0']);
   start(context, 'stream', 'synthetic:walk?people=4&rate=60&fingers=true', '--to', server.endpoint);
   const opened = await browser(context);
-  const plots = ['joint_angles/jRightKnee/z', 'joint_angles/jLeftKnee/z', 'position/Pelvis/z'].map((name) => `plot=0:${name}`);
+  const plots = ['joint_angles/jRightKnee/z', 'joint_angles/jLeftKnee/z', 'position/Pelvis/z'].map(
+    (name) => `plot=0:${name}`,
+  );
   const live = await open(opened, `${server.url}#${plots.join('&')}`);
   await until(() => live.evaluate(() => window.posewire.traces.all.length === 3), 'the channels');
   await live.waitForTimeout(11_000);
@@ -20,14 +22,22 @@ test('pictures are taken of performers, of a take and of a phone', { timeout: 18
   assertQuiet(live);
   await live.close();
 
-  const phone = await open(opened, server.url, { viewport: { width: 390, height: 780 }, colorScheme: 'light', hasTouch: true, isMobile: true });
+  const phone = await open(opened, server.url, {
+    viewport: { width: 390, height: 780 },
+    colorScheme: 'light',
+    hasTouch: true,
+    isMobile: true,
+  });
   await phone.waitForTimeout(3000);
   await phone.getByRole('button', { name: '4 performers' }).tap();
   await phone.waitForTimeout(1500);
   await smallPicture(phone, 'viewer-phone');
   await phone.close();
 
-  const take = await walkerTake(context, mkdtempSync(path.join(tmpdir(), 'posewire-')), 'walk.mvnx', 20, [[300, 372], [800, 806]]);
+  const take = await walkerTake(context, mkdtempSync(path.join(tmpdir(), 'posewire-')), 'walk.mvnx', 20, [
+    [300, 372],
+    [800, 806],
+  ]);
   const player = await view(context, [take.file]);
   const tab = await open(opened, `${player.url}#frame=481&show=names,com,trails`);
   await until(() => tab.evaluate(() => window.posewire.player.shownFrame() === 481), 'frame 481');

@@ -14,7 +14,17 @@ const KNEE = '0:joint_angles/jRightKnee/z';
 test('a joint angle of a live stream is plotted sample for sample, and stands still when paused', async (context) => {
   const truth = await monitor(context);
   const server = await view(context, ['mxtp://127.0.0.1:0']);
-  start(context, 'stream', 'synthetic:walk?rate=60', '--types', '02,12,13,20', '--to', server.endpoint, '--to', truth.endpoint);
+  start(
+    context,
+    'stream',
+    'synthetic:walk?rate=60',
+    '--types',
+    '02,12,13,20',
+    '--to',
+    server.endpoint,
+    '--to',
+    truth.endpoint,
+  );
   const tab = await open(await browser(context), server.url);
   await waitForStates(tab, ['LIVE']);
 
@@ -26,7 +36,9 @@ test('a joint angle of a live stream is plotted sample for sample, and stands st
   await until(async () => (await values()).length >= 100, '100 samples');
   const plotted = await values();
   await until(() => truth.frames().length > 260, 'the monitor to have seen as much');
-  const streamed = truth.frames().map((frame) => degrees(frame.joint_angles.find(({ name }) => name === 'jRightKnee').z));
+  const streamed = truth
+    .frames()
+    .map((frame) => degrees(frame.joint_angles.find(({ name }) => name === 'jRightKnee').z));
   assertRunOf(streamed, plotted);
 
   await tab.getByRole('button', { name: 'Pause the plots' }).click();
@@ -51,10 +63,15 @@ test('a take is plotted whole, its value is that of the frame, and a click goes 
   const expected = take.frames.map(({ jointAngle }) => jointAngle[knee]);
   const plotted = await column(KNEE);
   assert.equal(plotted.length, expected.length);
-  plotted.forEach((value, frame) => assert.ok(Math.abs(value - expected[frame]) < 1e-4, `frame ${frame}: ${value}, ${expected[frame]}`));
+  plotted.forEach((value, frame) =>
+    assert.ok(Math.abs(value - expected[frame]) < 1e-4, `frame ${frame}: ${value}, ${expected[frame]}`),
+  );
 
   const shown = () => tab.evaluate((key) => window.posewire.plots.shownValues()[key], KNEE);
-  await until(async () => (await shown()) === `${expected[100].toFixed(2)}°`, `the value of frame 100, ${expected[100]}`);
+  await until(
+    async () => (await shown()) === `${expected[100].toFixed(2)}°`,
+    `the value of frame 100, ${expected[100]}`,
+  );
   const chart = await tab.locator('.u-over').first().boundingBox();
   await tab.mouse.click(chart.x + chart.width / 2, chart.y + chart.height / 2);
   const middle = await tab.evaluate(() => window.posewire.player.playhead.position);

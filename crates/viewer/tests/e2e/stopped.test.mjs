@@ -8,41 +8,56 @@ import { memory, monitor, start, stop, until, view } from './lib/program.mjs';
 /** How long the page is stopped, seconds. */
 const STOPPED = Number(process.env.STOPPED_S ?? 6);
 
-test('a page in a debugger disturbs neither other pages nor the source', { timeout: 60_000 + STOPPED * 1000 }, async (context) => {
-  const truth = await monitor(context);
-  const server = await view(context, ['mxtp://127.0.0.1:0']);
-  const stream = start(context, 'stream', 'synthetic:walk?people=4&rate=60', '--to', server.endpoint, '--to', truth.endpoint);
-  const opened = await browser(context);
-  const [stopped, other] = [await open(opened, server.url), await open(await browser(context), server.url)];
-  for (const tab of [stopped, other]) await waitForStates(tab, ['LIVE', 'LIVE', 'LIVE', 'LIVE']);
+test(
+  'a page in a debugger disturbs neither other pages nor the source',
+  { timeout: 60_000 + STOPPED * 1000 },
+  async (context) => {
+    const truth = await monitor(context);
+    const server = await view(context, ['mxtp://127.0.0.1:0']);
+    const stream = start(
+      context,
+      'stream',
+      'synthetic:walk?people=4&rate=60',
+      '--to',
+      server.endpoint,
+      '--to',
+      truth.endpoint,
+    );
+    const opened = await browser(context);
+    const [stopped, other] = [await open(opened, server.url), await open(await browser(context), server.url)];
+    for (const tab of [stopped, other]) await waitForStates(tab, ['LIVE', 'LIVE', 'LIVE', 'LIVE']);
 
-  const debug = await stopped.context().newCDPSession(stopped);
-  await debug.send('Debugger.enable');
-  const paused = new Promise((resolve) => debug.once('Debugger.paused', resolve));
-  await debug.send('Debugger.pause');
-  await paused;
-  const before = memory(server);
-  await other.evaluate(countTicks);
-  await new Promise((resolve) => setTimeout(resolve, STOPPED * 1000));
-  const counted = await other.evaluate(() => window.counted);
-  const after = memory(server);
+    const debug = await stopped.context().newCDPSession(stopped);
+    await debug.send('Debugger.enable');
+    const paused = new Promise((resolve) => debug.once('Debugger.paused', resolve));
+    await debug.send('Debugger.pause');
+    await paused;
+    const before = memory(server);
+    await other.evaluate(countTicks);
+    await new Promise((resolve) => setTimeout(resolve, STOPPED * 1000));
+    const counted = await other.evaluate(() => window.counted);
+    const after = memory(server);
 
-  const rate = counted.ticks / counted.seconds;
-  assert.ok(rate > 20, `the other page had ${rate.toFixed(1)} ticks a second`);
-  assert.ok(counted.longest < 1000, `the other page had nothing for ${counted.longest} ms`);
-  if (before !== null && after !== null) {
-    assert.ok(after - before < 32e6, `the server grew by ${((after - before) / 1e6).toFixed(1)} MB`);
-  }
+    const rate = counted.ticks / counted.seconds;
+    assert.ok(rate > 20, `the other page had ${rate.toFixed(1)} ticks a second`);
+    assert.ok(counted.longest < 1000, `the other page had nothing for ${counted.longest} ms`);
+    if (before !== null && after !== null) {
+      assert.ok(after - before < 32e6, `the server grew by ${((after - before) / 1e6).toFixed(1)} MB`);
+    }
 
-  await debug.send('Debugger.resume');
-  const newest = (tab) => tab.evaluate(() => window.posewire.room.records.get(0).sample);
-  await until(async () => Math.abs((await newest(stopped)) - (await newest(other))) < 30, 'the stopped page to have caught up');
-  await stop(stream);
-  const frames = truth.frames();
-  const samples = new Set(frames.filter(({ name }) => name === 'Ada').map(({ sample }) => sample));
-  const last = Math.max(...samples);
-  assert.equal(samples.size, last + 1 - Math.min(...samples), 'the stream itself lost nothing');
-});
+    await debug.send('Debugger.resume');
+    const newest = (tab) => tab.evaluate(() => window.posewire.room.records.get(0).sample);
+    await until(
+      async () => Math.abs((await newest(stopped)) - (await newest(other))) < 30,
+      'the stopped page to have caught up',
+    );
+    await stop(stream);
+    const frames = truth.frames();
+    const samples = new Set(frames.filter(({ name }) => name === 'Ada').map(({ sample }) => sample));
+    const last = Math.max(...samples);
+    assert.equal(samples.size, last + 1 - Math.min(...samples), 'the stream itself lost nothing');
+  },
+);
 
 /** Counts the ticks that come from now on, and the longest time between two. */
 function countTicks() {

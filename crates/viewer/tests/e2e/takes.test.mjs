@@ -13,14 +13,21 @@ const folder = mkdtempSync(path.join(tmpdir(), 'posewire-'));
 let take;
 
 before(async (context) => {
-  take = await walkerTake({ after: () => undefined, ...context }, folder, 'walk.mvnx', 10, [[120, 150], [400, 401]]);
+  take = await walkerTake({ after: () => undefined, ...context }, folder, 'walk.mvnx', 10, [
+    [120, 150],
+    [400, 401],
+  ]);
 });
 
 /** The frame that the stage shows, with where it has the segments. */
 function shown(tab) {
   return tab.evaluate(() => {
     const { player, room, stage } = window.posewire;
-    return { frame: player.shownFrame(), sample: room.records.get(0)?.sample, positions: [...stage.stats().positions(0)] };
+    return {
+      frame: player.shownFrame(),
+      sample: room.records.get(0)?.sample,
+      positions: [...stage.stats().positions(0)],
+    };
   });
 }
 
@@ -43,8 +50,13 @@ test('a file is scrubbed and stepped to exact frames', async (context) => {
   await tab.keyboard.press('Escape');
 
   for (const [key, frame] of [
-    ['ArrowRight', 482], ['Shift+ArrowLeft', 472], ['ArrowLeft', 471], ['Home', 0], ['Shift+ArrowRight', 10],
-    ['PageDown', 70], ['End', take.frames.length - 1],
+    ['ArrowRight', 482],
+    ['Shift+ArrowLeft', 472],
+    ['ArrowLeft', 471],
+    ['Home', 0],
+    ['Shift+ArrowRight', 10],
+    ['PageDown', 70],
+    ['End', take.frames.length - 1],
   ]) {
     await tab.keyboard.press(key);
     await assertFrame(tab, frame);
@@ -53,7 +65,7 @@ test('a file is scrubbed and stepped to exact frames', async (context) => {
   // A third of ten seconds: behind the gap, which takes its time.
   const line = await tab.getByRole('slider', { name: 'Timeline' }).boundingBox();
   await tab.mouse.click(line.x + line.width / 3, line.y + 8);
-  const wanted = take.frames.filter(({ sample }) => sample <= Math.floor((599 / 3) + 0.0005)).length - 1;
+  const wanted = take.frames.filter(({ sample }) => sample <= Math.floor(599 / 3 + 0.0005)).length - 1;
   await until(async () => Math.abs((await shown(tab)).frame - wanted) <= 1, `frame ${wanted} or a neighbour`);
   await tab.getByRole('button', { name: '30 samples missing' }).click();
   await assertFrame(tab, 119);
@@ -78,7 +90,10 @@ test('a take plays at its speed, and repeats a range', async (context) => {
     frames.add((await shown(tab)).frame);
     return frames.size >= 8;
   }, 'eight frames of the range');
-  assert.ok([...frames].every((frame) => frame >= 300 && frame <= 330), [...frames].join());
+  assert.ok(
+    [...frames].every((frame) => frame >= 300 && frame <= 330),
+    [...frames].join(),
+  );
   await tab.getByRole('button', { name: 'Pause' }).click();
 
   await tab.keyboard.press('u');

@@ -52,7 +52,12 @@ export class App {
       connection: (state, retryIn) => this.connected(state, retryIn),
     });
     const ask = this.live.askPlots.bind(this.live);
-    this.traces = new Traces(ask, (subject) => this.room.takeOf(subject), () => this.plots.changed(), toast);
+    this.traces = new Traces(
+      ask,
+      (subject) => this.room.takeOf(subject),
+      () => this.plots.changed(),
+      toast,
+    );
     this.plots = new PlotPanel(byId('plots'), this.traces, this.plotSource(), () => this.controls.togglePlots());
     this.controls = new ViewControls(this);
     this.refreshes = this.parts();

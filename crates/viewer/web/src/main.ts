@@ -12,6 +12,8 @@ try {
   const empty = byId('empty');
   empty.hidden = false;
   const help = 'It needs WebGL 2: another browser has it, or hardware acceleration has to be switched on in this one.';
-  empty.replaceChildren(h('div', { class: 'waiting' }, h('h2', {}, 'This browser cannot draw the stage'), h('p', {}, help)));
+  empty.replaceChildren(
+    h('div', { class: 'waiting' }, h('h2', {}, 'This browser cannot draw the stage'), h('p', {}, help)),
+  );
   throw error;
 }

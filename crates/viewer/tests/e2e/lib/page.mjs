@@ -26,10 +26,22 @@ export async function open(opened, url, options = {}) {
   const tab = await opened.newPage({ viewport, colorScheme: 'dark', ...options });
   tab.problems = [];
   const { origin } = new URL(url);
-  tab.on('console', (message) => ['error', 'warning'].includes(message.type()) && tab.problems.push(`${message.text()} (${message.location().url})`));
+  tab.on(
+    'console',
+    (message) =>
+      ['error', 'warning'].includes(message.type()) &&
+      tab.problems.push(`${message.text()} (${message.location().url})`),
+  );
   tab.on('pageerror', (error) => tab.problems.push(error.stack));
-  tab.on('request', (request) => elsewhere(request.url(), origin) && tab.problems.push(`a request to ${request.url()}`));
-  tab.on('websocket', (socket) => elsewhere(socket.url().replace(/^ws/, 'http'), origin) && tab.problems.push(`a socket to ${socket.url()}`));
+  tab.on(
+    'request',
+    (request) => elsewhere(request.url(), origin) && tab.problems.push(`a request to ${request.url()}`),
+  );
+  tab.on(
+    'websocket',
+    (socket) =>
+      elsewhere(socket.url().replace(/^ws/, 'http'), origin) && tab.problems.push(`a socket to ${socket.url()}`),
+  );
   await tab.goto(url);
   await tab.waitForFunction(() => window.posewire?.room.connection === 'open' && window.posewire.room.scene);
   return tab;

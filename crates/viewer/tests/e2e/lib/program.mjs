@@ -37,7 +37,10 @@ export async function run(context, ...args) {
 /** The rest of the first line that begins with these words. */
 export async function said(program, words) {
   const find = () => program.lines.find((line) => line.startsWith(words));
-  await until(() => find() !== undefined || program.child.exitCode !== null, `“${words}” from ${program.args.join(' ')}`);
+  await until(
+    () => find() !== undefined || program.child.exitCode !== null,
+    `“${words}” from ${program.args.join(' ')}`,
+  );
   assert.ok(find(), program.lines.join('\n'));
   return find().slice(words.length).trim();
 }
@@ -54,7 +57,8 @@ export async function view(context, sources, ...args) {
 export async function monitor(context) {
   const program = start(context, 'monitor', 'mxtp://127.0.0.1:0', '--json', '--frames');
   const endpoint = await said(program, 'listening on ');
-  const frames = () => program.lines.filter((line) => line.startsWith('{"kind":"frame"')).map((line) => JSON.parse(line));
+  const frames = () =>
+    program.lines.filter((line) => line.startsWith('{"kind":"frame"')).map((line) => JSON.parse(line));
   return { ...program, endpoint, frames };
 }
 

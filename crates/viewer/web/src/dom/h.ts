@@ -26,7 +26,7 @@ export function s<Tag extends keyof SVGElementTagNameMap>(
   properties: Properties = {},
   ...children: Child[]
 ): SVGElementTagNameMap[Tag] {
-  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  const element = document.createElementNS('http://www.w3.org/2000/svg', tag);
   apply(element, properties);
   append(element, children);
   return element;
@@ -54,14 +54,14 @@ export function byId<Kind extends HTMLElement = HTMLElement>(id: string): Kind {
 function apply(element: Element, properties: Properties): void {
   for (const [name, value] of Object.entries(properties)) {
     if (value === null || value === undefined || value === false) continue;
-    if (name.startsWith("on")) element.addEventListener(name.slice(2), value as EventListener);
-    else element.setAttribute(name, value === true ? "" : String(value));
+    if (name.startsWith('on')) element.addEventListener(name.slice(2), value as EventListener);
+    else element.setAttribute(name, value === true ? '' : String(value));
   }
 }
 
 function append(element: Element, children: Child[]): void {
   for (const child of children) {
     if (child === null || child === undefined || child === false) continue;
-    element.append(typeof child === "number" ? String(child) : child);
+    element.append(typeof child === 'number' ? String(child) : child);
   }
 }

@@ -25,7 +25,14 @@ describe('numbers', () => {
   });
 });
 
-const pose = { character: 0, name: 'Ada', type: '02', rate_hz: 240, missing: 3, samples: { done: 90, partial: 2, gone: 1 } };
+const pose = {
+  character: 0,
+  name: 'Ada',
+  type: '02',
+  rate_hz: 240,
+  missing: 3,
+  samples: { done: 90, partial: 2, gone: 1 },
+};
 const source = {
   source: 0,
   receiver: { kernel_dropped: 4 },
@@ -42,7 +49,8 @@ describe('statistics', () => {
       history.add({ sources: [{ ...source, subjects }], page: { connections: 1, skipped: 0 } });
     }
     expect(history.seconds(key).map((second) => second.missing)).toEqual([0, 4, 0, 0]);
-    for (let second = 0; second < 130; second++) history.add({ sources: [source], page: { connections: 1, skipped: 0 } });
+    for (let second = 0; second < 130; second++)
+      history.add({ sources: [source], page: { connections: 1, skipped: 0 } });
     expect(history.seconds(key)).toHaveLength(120);
   });
 
@@ -66,6 +74,9 @@ describe('the room', () => {
   it('says a notice that comes again once', () => {
     const room = new Room();
     ['a', 'a', 'b'].forEach((text) => room.notice(text));
-    expect(room.notices.map(({ text, times }) => [text, times])).toEqual([['b', 1], ['a', 2]]);
+    expect(room.notices.map(({ text, times }) => [text, times])).toEqual([
+      ['b', 1],
+      ['a', 2],
+    ]);
   });
 });

@@ -11,7 +11,9 @@ export function empty(element: HTMLElement, room: Room): () => void {
     element.hidden = !nobody;
     if (!nobody || shown === room.scene) return;
     shown = room.scene;
-    element.replaceChildren(room.live ? waiting(room.scene?.source ?? []) : h('h2', {}, 'No performers in these files'));
+    element.replaceChildren(
+      room.live ? waiting(room.scene?.source ?? []) : h('h2', {}, 'No performers in these files'),
+    );
   };
 }
 
@@ -26,7 +28,13 @@ function waiting(sources: string[]): HTMLElement {
     h('p', {}, 'This page listens on'),
     h('ul', { class: 'sources' }, ...where),
     mxtp ? mvn(mxtp) : null,
-    sources.some(isLoopback) ? h('p', { class: 'aside' }, 'Only programs of this machine reach a loopback address: 0.0.0.0 listens to others as well.') : null,
+    sources.some(isLoopback)
+      ? h(
+          'p',
+          { class: 'aside' },
+          'Only programs of this machine reach a loopback address: 0.0.0.0 listens to others as well.',
+        )
+      : null,
     natnet ? motive() : null,
     h('p', { class: 'aside' }, 'Without a suit: ', h('code', {}, 'posewire demo')),
   );
@@ -40,7 +48,11 @@ function mvn(source: string): HTMLElement {
     {},
     h('li', {}, 'In MVN, open Options > Preferences > Miscellaneous > Network Streamer.'),
     h('li', {}, 'Add ', h('b', {}, hostHint()), ', port ', h('b', {}, port), `, ${protocol}.`),
-    h('li', {}, 'Tick Position + Orientation (Quaternion); Joint Angles, Center of Mass and Time Code as well if you want them here.'),
+    h(
+      'li',
+      {},
+      'Tick Position + Orientation (Quaternion); Joint Angles, Center of Mass and Time Code as well if you want them here.',
+    ),
     h('li', {}, 'Switch the streamer on. Whoever is streamed appears at once.'),
   );
 }
@@ -50,7 +62,11 @@ function motive(): HTMLElement {
     'ol',
     {},
     h('li', {}, 'In Motive, open Edit > Settings > Streaming and switch NatNet on.'),
-    h('li', {}, 'Choose as local interface the network that both machines are on, and stream skeletons and rigid bodies.'),
+    h(
+      'li',
+      {},
+      'Choose as local interface the network that both machines are on, and stream skeletons and rigid bodies.',
+    ),
   );
 }
 

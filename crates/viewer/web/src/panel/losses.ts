@@ -42,9 +42,15 @@ interface Fact {
 function factsOf(source: SourceStatistics): Fact[] {
   const { kernel, partial, gone, frames } = losses(source);
   const natnet = source.subjects.some((stream) => !stream.samples);
-  const facts = [{ name: 'Dropped by this machine', value: count(kernel), help: 'Its kernel dropped datagrams: certain.' }];
+  const facts = [
+    { name: 'Dropped by this machine', value: count(kernel), help: 'Its kernel dropped datagrams: certain.' },
+  ];
   if (natnet) {
-    facts.push({ name: 'Frames missing', value: count(frames), help: 'Never sent, or lost by the network: nobody can tell.' });
+    facts.push({
+      name: 'Frames missing',
+      value: count(frames),
+      help: 'Never sent, or lost by the network: nobody can tell.',
+    });
   } else {
     facts.push(
       { name: 'Samples incomplete', value: count(partial), help: 'Lost or damaged after the sender had made them.' },
@@ -52,7 +58,11 @@ function factsOf(source: SourceStatistics): Fact[] {
     );
   }
   const malformed = source.receiver?.malformed ?? 0;
-  facts.push({ name: 'Malformed datagrams', value: count(malformed), help: source.receiver?.last_malformed ?? 'Could not be read.' });
+  facts.push({
+    name: 'Malformed datagrams',
+    value: count(malformed),
+    help: source.receiver?.last_malformed ?? 'Could not be read.',
+  });
   return [...facts, ...latencies(source)];
 }
 

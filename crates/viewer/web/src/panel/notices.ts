@@ -14,10 +14,12 @@ export function notices(room: Room): Part {
     if (now === shown) return;
     shown = now;
     element.hidden = room.notices.length === 0;
-    list.replaceChildren(...room.notices.slice(0, SHOWN).map(({ at, text, times }) => {
-      const time = h('time', {}, new Date(at).toLocaleTimeString('en-GB'));
-      return h('li', {}, time, h('span', {}, times > 1 ? `${text} (${times} times)` : text));
-    }));
+    list.replaceChildren(
+      ...room.notices.slice(0, SHOWN).map(({ at, text, times }) => {
+        const time = h('time', {}, new Date(at).toLocaleTimeString('en-GB'));
+        return h('li', {}, time, h('span', {}, times > 1 ? `${text} (${times} times)` : text));
+      }),
+    );
   };
   return { element, refresh };
 }

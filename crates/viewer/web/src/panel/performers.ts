@@ -109,7 +109,11 @@ export function nameOf(subject: Subject): string {
 }
 
 function toggle(name: 'follow' | 'shown', label: string, onclick: () => void): HTMLButtonElement {
-  return h('button', { type: 'button', class: 'icon', 'aria-pressed': 'false', 'aria-label': label, title: label, onclick }, icon(name));
+  return h(
+    'button',
+    { type: 'button', class: 'icon', 'aria-pressed': 'false', 'aria-label': label, title: label, onclick },
+    icon(name),
+  );
 }
 
 type StateName = 'live' | 'stale' | 'lost' | 'take' | 'waiting' | 'unknown';

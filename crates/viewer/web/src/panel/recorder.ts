@@ -9,7 +9,14 @@ import type { Recorder, Recording } from '../protocol/statistics';
 import type { Part } from './performers';
 
 export function recorder(room: Room, say: (text: string) => void): Part {
-  const name = h('input', { type: 'text', id: 'take-name', placeholder: 'take', maxlength: 80, autocomplete: 'off', spellcheck: 'false' });
+  const name = h('input', {
+    type: 'text',
+    id: 'take-name',
+    placeholder: 'take',
+    maxlength: 80,
+    autocomplete: 'off',
+    spellcheck: 'false',
+  });
   const button = h('button', { type: 'submit', class: 'record' }, icon('record'), h('span', {}, 'Record'));
   const status = h('p', { class: 'record-status', role: 'status' });
   const list = h('ul', { class: 'recordings' });
@@ -19,11 +26,15 @@ export function recorder(room: Room, say: (text: string) => void): Part {
   form.onsubmit = (event) => {
     event.preventDefault();
     button.disabled = true;
-    const asked = recording(room) ? post('/api/recorder/stop') : post('/api/recorder/start', { name: name.value.trim() || 'take' });
-    asked.catch((error: unknown) => say(words(error))).finally(() => {
-      button.disabled = false;
-      void reload();
-    });
+    const asked = recording(room)
+      ? post('/api/recorder/stop')
+      : post('/api/recorder/start', { name: name.value.trim() || 'take' });
+    asked
+      .catch((error: unknown) => say(words(error)))
+      .finally(() => {
+        button.disabled = false;
+        void reload();
+      });
   };
 
   const reload = async (): Promise<void> => {
@@ -70,7 +81,11 @@ function statusText(recorder: Recorder | null): string {
 function recordingRow(recording: Recording): HTMLLIElement {
   const href = `/api/recordings/${encodeURIComponent(recording.name)}`;
   const label = `Download ${recording.name}`;
-  const link = h('a', { href, download: recording.name, class: 'icon', 'aria-label': label, title: label }, icon('download'));
+  const link = h(
+    'a',
+    { href, download: recording.name, class: 'icon', 'aria-label': label, title: label },
+    icon('download'),
+  );
   const when = new Date(typeof recording.modified === 'number' ? recording.modified * 1000 : recording.modified);
   const detail = `${bytes(recording.bytes)}, ${when.toLocaleString('en-GB', { dateStyle: 'medium', timeStyle: 'short' })}`;
   return h('li', {}, h('span', { class: 'name' }, recording.name), h('span', { class: 'detail' }, detail), link);

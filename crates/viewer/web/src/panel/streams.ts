@@ -23,7 +23,9 @@ export function streams(room: Room): Part {
       shape = shapeOf(shown);
       const open = new Set(groups.filter((group) => group.element.open).map((group) => group.title));
       groups = shown.sources.flatMap((source) => groupsOf(source, room, shown!.sources.length > 1));
-      groups.forEach((group, place) => (group.element.open = open.has(group.title) || (open.size === 0 && place === 0)));
+      groups.forEach(
+        (group, place) => (group.element.open = open.has(group.title) || (open.size === 0 && place === 0)),
+      );
       body.replaceChildren(...groups.map((group) => group.element));
     }
     for (const group of groups) group.show(shown, room);
@@ -47,7 +49,9 @@ interface Group {
 
 function groupsOf(source: SourceStatistics, room: Room, many: boolean): Group[] {
   const names = [...new Set(source.subjects.map(groupKey))];
-  const groups = names.map((key) => streamGroup(source, key, many ? `${room.scene?.source[source.source] ?? ''}: ` : ''));
+  const groups = names.map((key) =>
+    streamGroup(source, key, many ? `${room.scene?.source[source.source] ?? ''}: ` : ''),
+  );
   return [...groups, lossBlock(source, many ? (room.scene?.source[source.source] ?? '') : '')];
 }
 
@@ -62,7 +66,13 @@ function streamGroup(source: SourceStatistics, key: string, prefix: string): Gro
   const rows = own.map((stream) => new StreamRow(streamKey(source, stream), stream));
   const summary = h('span', { class: 'summary-note' });
   const columns = ['Type', 'Rate', 'Last 2 min', 'Missing', INTERVAL];
-  const head = h('tr', {}, ...columns.map((column) => h('th', { scope: 'col', title: column === INTERVAL ? 'Time between a datagram and the next' : null }, column)));
+  const head = h(
+    'tr',
+    {},
+    ...columns.map((column) =>
+      h('th', { scope: 'col', title: column === INTERVAL ? 'Time between a datagram and the next' : null }, column),
+    ),
+  );
   const table = h('table', {}, h('thead', {}, head), h('tbody', {}, ...rows.map((row) => row.element)));
   const element = h('details', {}, h('summary', {}, h('span', { class: 'summary-name' }, title), summary), table);
   const show = (statistics: Statistics, room: Room): void => {
@@ -94,7 +104,15 @@ class StreamRow {
     stream: StreamStatistics,
   ) {
     this.label = h('th', { scope: 'row' }, typeName(stream.type));
-    this.element = h('tr', {}, this.label, this.rate, h('td', { class: 'spark' }, this.line.element), this.missing, this.interval);
+    this.element = h(
+      'tr',
+      {},
+      this.label,
+      this.rate,
+      h('td', { class: 'spark' }, this.line.element),
+      this.missing,
+      this.interval,
+    );
   }
 
   show(stream: StreamStatistics, room: Room): void {
@@ -147,4 +165,3 @@ const TYPES: Record<string, string> = {
   '24': 'Mass centre',
   '25': 'Timecode',
 };
-

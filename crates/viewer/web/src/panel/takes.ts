@@ -22,14 +22,28 @@ export function takes(room: Room, go: (take: Take, frame: number) => void): Part
 
 function takeBlock(take: Take, open: boolean, go: (take: Take, frame: number) => void): HTMLElement {
   const name = h('span', { class: 'summary-name' }, take.file);
-  const facts = [fact('Frames', count(take.frames)), fact('Rate', hertz(take.rate_hz)), fact('Length', clock(take.duration_s, 1))];
+  const facts = [
+    fact('Frames', count(take.frames)),
+    fact('Rate', hertz(take.rate_hz)),
+    fact('Length', clock(take.duration_s, 1)),
+  ];
   const block = h(
     'details',
     {},
     h('summary', {}, name, h('span', { class: 'summary-note' }, note(take))),
     h('dl', { class: 'facts' }, ...facts),
-    places(take, 'Markers', take.markers.map(({ frame, name: text }) => ({ frame, text, detail: `frame ${count(frame)}` })), go),
-    places(take, 'Gaps', take.gaps.map(([frame, missing]) => gap(frame, missing)), go),
+    places(
+      take,
+      'Markers',
+      take.markers.map(({ frame, name: text }) => ({ frame, text, detail: `frame ${count(frame)}` })),
+      go,
+    ),
+    places(
+      take,
+      'Gaps',
+      take.gaps.map(([frame, missing]) => gap(frame, missing)),
+      go,
+    ),
   );
   block.open = open;
   return block;
@@ -42,7 +56,11 @@ function note(take: Take): string {
 }
 
 function gap(frame: number, missing: number): Place {
-  return { frame, text: missing === 1 ? '1 sample missing' : `${count(missing)} samples missing`, detail: `behind frame ${count(frame)}` };
+  return {
+    frame,
+    text: missing === 1 ? '1 sample missing' : `${count(missing)} samples missing`,
+    detail: `behind frame ${count(frame)}`,
+  };
 }
 
 interface Place {
@@ -55,7 +73,11 @@ function places(take: Take, title: string, all: Place[], go: (take: Take, frame:
   if (all.length === 0) return null;
   const rows = all.slice(0, SHOWN).map(({ frame, text, detail }) => {
     const onclick = (): void => go(take, frame);
-    return h('li', {}, h('button', { type: 'button', onclick }, h('span', {}, text), h('span', { class: 'detail' }, detail)));
+    return h(
+      'li',
+      {},
+      h('button', { type: 'button', onclick }, h('span', {}, text), h('span', { class: 'detail' }, detail)),
+    );
   });
   const more = all.length > SHOWN ? h('li', { class: 'aside' }, `and ${count(all.length - SHOWN)} more`) : null;
   return h('div', { class: 'places' }, h('h3', {}, title), h('ul', {}, ...rows, more));

@@ -33,7 +33,8 @@ export function search(subjects: Subject[], text: string, limit: number): Channe
   const found: Channel[] = [];
   for (const subject of subjects) {
     for (const channel of channelsOf(subject)) {
-      const where = `${channel.subjectName} ${channel.name.replaceAll('_', ' ')} ${axisName(channel)} ${channel.unit}`.toLowerCase();
+      const where =
+        `${channel.subjectName} ${channel.name.replaceAll('_', ' ')} ${axisName(channel)} ${channel.unit}`.toLowerCase();
       if (words.every((word) => where.includes(word.replaceAll('_', ' ')))) found.push(channel);
       if (found.length >= limit) return found;
     }

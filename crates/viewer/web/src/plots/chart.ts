@@ -117,6 +117,10 @@ export class Chart {
       const time = cursorTime(this.plot);
       if (Math.abs(event.clientX - pressed) < 4 && time !== null) this.options.pick(time);
     });
+    // A finger has no hover: drawn sideways it moves the cursor.
+    over.addEventListener('pointermove', (event) => {
+      if (event.pointerType === 'touch') this.plot.setCursor({ left: event.offsetX, top: event.offsetY });
+    });
     over.addEventListener('dblclick', () => this.options.zoom(null));
     over.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
   }

@@ -50,7 +50,16 @@ export class PlotPanel {
     this.pause = button('pause', 'Pause the plots', () => this.setPaused(!this.paused));
     this.reset = button('reset', 'Show all again', () => this.zoom(null));
     const add = h('button', { type: 'button', onclick: () => this.pick() }, icon('add'), 'Channel');
-    const bar = h('div', { class: 'plot-bar' }, h('h2', {}, 'Plots'), add, h('span', { class: 'space' }), this.reset, this.pause, button('remove', 'Close the plots', close));
+    const bar = h(
+      'div',
+      { class: 'plot-bar' },
+      h('h2', {}, 'Plots'),
+      add,
+      h('span', { class: 'space' }),
+      this.reset,
+      this.pause,
+      button('remove', 'Close the plots', close),
+    );
     element.append(bar, this.charts);
     new ResizeObserver(() => (this.dirty = true)).observe(this.charts);
   }
@@ -85,7 +94,9 @@ export class PlotPanel {
 
   /** The values that stand beside the channels, as text. */
   shownValues(): Record<string, string> {
-    const pairs = this.groups.flatMap((group) => group.traces.map((trace, place) => [trace.key, group.values[place]?.textContent ?? '']));
+    const pairs = this.groups.flatMap((group) =>
+      group.traces.map((trace, place) => [trace.key, group.values[place]?.textContent ?? '']),
+    );
     return Object.fromEntries(pairs) as Record<string, string>;
   }
 
@@ -125,7 +136,12 @@ export class PlotPanel {
 
   private nothing(): HTMLElement {
     const choose = h('button', { type: 'button', onclick: () => this.pick() }, 'Choose a channel');
-    return h('div', { class: 'nothing' }, h('p', {}, 'Plot any joint angle, position, velocity or acceleration.'), choose);
+    return h(
+      'div',
+      { class: 'nothing' },
+      h('p', {}, 'Plot any joint angle, position, velocity or acceleration.'),
+      choose,
+    );
   }
 
   private group(unit: string): Group {
@@ -154,7 +170,14 @@ export class PlotPanel {
     const many = this.source.subjects().length > 1;
     const name = many ? `${channel.subjectName} ${title(channel)}` : title(channel);
     const remove = button('remove', `Remove ${name}`, () => this.traces.remove(channelKey(channel)));
-    const chip = h('span', { class: 'chip' }, h('span', { class: 'key' }), h('span', { class: 'name' }, name), value, remove);
+    const chip = h(
+      'span',
+      { class: 'chip' },
+      h('span', { class: 'key' }),
+      h('span', { class: 'name' }, name),
+      value,
+      remove,
+    );
     chip.style.setProperty('--color', `var(--trace-${trace.color % COLORS})`);
     return chip;
   }
@@ -217,4 +240,10 @@ function button(name: 'pause' | 'reset' | 'remove', label: string, onclick: () =
 }
 
 const COLORS = 8;
-const UNITS: Record<string, string> = { deg: '°', 'deg/s': '°/s', 'deg/s2': '°/s²', 'm/s2': ' m/s²', 'rad/s2': ' rad/s²' };
+const UNITS: Record<string, string> = {
+  deg: '°',
+  'deg/s': '°/s',
+  'deg/s2': '°/s²',
+  'm/s2': ' m/s²',
+  'rad/s2': ' rad/s²',
+};

@@ -8,12 +8,21 @@ import { type Channel, channelKey, search, suggestions, title } from './channels
 /** Opens the dialog. `chosen` says which are plotted, `toggle` adds or removes one. */
 export function pickChannels(subjects: Subject[], chosen: () => Set<string>, toggle: (channel: Channel) => void): void {
   const input = h('input', {
-    type: 'text', role: 'searchbox', id: 'channel-search', placeholder: 'right knee flexion', autocomplete: 'off', spellcheck: 'false',
+    type: 'text',
+    role: 'searchbox',
+    id: 'channel-search',
+    placeholder: 'right knee flexion',
+    autocomplete: 'off',
+    spellcheck: 'false',
   });
   const list = h('ul', { class: 'channels' });
   const note = h('p', { class: 'aside', role: 'status' });
   const dialog = h('dialog', { class: 'picker', 'aria-labelledby': 'picker-title' });
-  const close = h('button', { type: 'button', class: 'icon', 'aria-label': 'Close', onclick: () => dialog.close() }, icon('remove'));
+  const close = h(
+    'button',
+    { type: 'button', class: 'icon', 'aria-label': 'Close', onclick: () => dialog.close() },
+    icon('remove'),
+  );
   const label = h('label', { for: 'channel-search' }, 'Search by joint, segment, quantity or axis');
   dialog.append(h('header', {}, h('h2', { id: 'picker-title' }, 'Plot a channel'), close), label, input, list, note);
 
@@ -50,7 +59,12 @@ function noteOf(text: string, found: number): string {
   return text ? '' : 'What is asked for most. Type to find all others.';
 }
 
-function row(channel: Channel, many: boolean, chosen: () => Set<string>, toggle: (channel: Channel) => void): HTMLElement {
+function row(
+  channel: Channel,
+  many: boolean,
+  chosen: () => Set<string>,
+  toggle: (channel: Channel) => void,
+): HTMLElement {
   const key = channelKey(channel);
   const button = h(
     'button',

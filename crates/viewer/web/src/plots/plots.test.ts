@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { channelKey, findChannel, search, suggestions, title } from './channels';
+import { niceRange } from './range';
 import { Rolling } from './rolling';
 import { table, valueAt } from './table';
 import type { Subject } from '../protocol/types';
@@ -43,7 +44,10 @@ describe('a rolling window', () => {
     const rolling = new Rolling(2);
     for (let sample = 0; sample < 5000; sample += 5) {
       const times = Float64Array.from({ length: 5 }, (_, place) => (sample + place) / 240);
-      rolling.push(times, Float32Array.from(times, (time) => time * 2));
+      rolling.push(
+        times,
+        Float32Array.from(times, (time) => time * 2),
+      );
     }
     expect(rolling.times()).toHaveLength(481);
     expect(rolling.times()[480]).toBe(4999 / 240);
@@ -76,5 +80,20 @@ describe('a table', () => {
   it('knows the value at a time', () => {
     expect([-1, 0, 0.9, 2, 9].map((time) => valueAt(a, time))).toEqual([null, 5, 5, 7, 7]);
     expect(valueAt(a, 1.5)).toBeNull();
+  });
+});
+
+describe('the range of a chart', () => {
+  it('ends on round numbers around the values', () => {
+    expect(niceRange(3, 58)).toEqual([0, 80]);
+    const [low, high] = niceRange(0.869, 0.9055);
+    expect([low, high].map((value) => value.toFixed(3))).toEqual(['0.860', '0.910']);
+  });
+
+  it('has room for a value that does not move, and for none', () => {
+    const [low, high] = niceRange(5, 5);
+    expect(low).toBeLessThan(5);
+    expect(high).toBeGreaterThan(5);
+    expect(niceRange(null, null)).toEqual([0, 1]);
   });
 });

@@ -61,7 +61,10 @@ export class Traces {
     const rolling = this.rolling.get(series.channel);
     if (!trace || !rolling) return;
     const by = shift(trace.channel.subject);
-    rolling.push(series.time.map((time) => time + by), series.value);
+    rolling.push(
+      series.time.map((time) => time + by),
+      series.value,
+    );
     this.changed();
   }
 

@@ -50,7 +50,7 @@ export function decodeMessage(buffer: ArrayBuffer): Message {
 export function decodeRecords(buffer: ArrayBuffer, offset = 0): SubjectRecord[] {
   const view = new DataView(buffer);
   const records: SubjectRecord[] = [];
-  for (let at = offset; at < buffer.byteLength; ) {
+  for (let at = offset; at < buffer.byteLength;) {
     const [record, length] = decodeRecord(view, at);
     records.push(record);
     at += length;

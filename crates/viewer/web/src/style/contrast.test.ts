@@ -26,7 +26,9 @@ describe.each(['dark', 'light'])('in %s', (theme) => {
 /** The colours of a theme that are written as #rrggbb. */
 function tokensOf(theme: string): Record<string, string> {
   const block = new RegExp(`\\[data-theme='${theme}'\\] \\{([^}]*)\\}`).exec(text)![1]!;
-  return Object.fromEntries([...block.matchAll(/--([\w-]+): (#[0-9a-f]{6});/g)].map(([, name, color]) => [name, color]));
+  return Object.fromEntries(
+    [...block.matchAll(/--([\w-]+): (#[0-9a-f]{6});/g)].map(([, name, color]) => [name, color]),
+  );
 }
 
 /** As WCAG 2 has it: from 1 to 21. */

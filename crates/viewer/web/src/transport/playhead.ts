@@ -50,7 +50,8 @@ export class Playhead {
   mark(edge: 'from' | 'to'): void {
     const range = { ...this.bounds(), [edge]: this.position };
     if (range.from < range.to) this.range = range;
-    else this.range = edge === 'from' && this.position < this.span.to ? { from: this.position, to: this.span.to } : null;
+    else
+      this.range = edge === 'from' && this.position < this.span.to ? { from: this.position, to: this.span.to } : null;
     this.repeat = this.range !== null;
   }
 

@@ -23,7 +23,10 @@ export function scrubber(takes: Take[], span: Span, playhead: Playhead, seek: (s
   const element = h(
     'div',
     { class: 'scrubber', role: 'slider', tabindex: '0', 'aria-label': 'Timeline', 'aria-valuemin': '0' },
-    canvas, range, head, tip,
+    canvas,
+    range,
+    head,
+    tip,
   );
   setAttribute(element, 'aria-valuemax', (span.to - span.from).toFixed(3));
 

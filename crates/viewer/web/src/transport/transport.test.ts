@@ -1,14 +1,25 @@
 import { describe, expect, it } from 'vitest';
 import { Playhead } from './playhead';
 import { frameAt, frameTime, gapSpans, nearestFrame, wholeSpan } from './timeline';
+import { roundStep } from './track';
 import type { Take } from '../protocol/types';
 
 /** Ten frames at 100 Hz from 2 s; five samples are missing behind frame 3, one behind frame 6. */
-const take = { start_s: 2, rate_hz: 100, frames: 10, gaps: [[3, 5], [6, 1]] } as unknown as Take;
+const take = {
+  start_s: 2,
+  rate_hz: 100,
+  frames: 10,
+  gaps: [
+    [3, 5],
+    [6, 1],
+  ],
+} as unknown as Take;
 
 describe('the timeline', () => {
   it('knows when each frame is, gaps included', () => {
-    expect([0, 3, 4, 6, 7, 9].map((frame) => Math.round((frameTime(take, frame) - 2) * 100))).toEqual([0, 3, 9, 11, 13, 15]);
+    expect([0, 3, 4, 6, 7, 9].map((frame) => Math.round((frameTime(take, frame) - 2) * 100))).toEqual([
+      0, 3, 9, 11, 13, 15,
+    ]);
   });
 
   it('finds each frame again at its own time', () => {
@@ -76,4 +87,8 @@ describe('the playhead', () => {
     playhead.mark('from');
     expect(playhead.range).toEqual({ from: 9, to: 10 });
   });
+});
+
+it('times stand at round distances', () => {
+  expect([1.85, 10, 600, 40_000].map((length) => roundStep(length, 10))).toEqual([0.2, 1, 60, 7200]);
 });

@@ -30,7 +30,19 @@ export function transport(element: HTMLElement, player: Player): Transport {
     button('next', 'One frame on', '→', () => player.step(1)),
     button('last', 'Last frame', 'end', () => player.goTo(Infinity)),
   );
-  element.append(h('div', { class: 'controls' }, buttons, frame.element, time, h('span', { class: 'space' }), range.element, speed.element), line.element);
+  element.append(
+    h(
+      'div',
+      { class: 'controls' },
+      buttons,
+      frame.element,
+      time,
+      h('span', { class: 'space' }),
+      range.element,
+      speed.element,
+    ),
+    line.element,
+  );
   element.hidden = false;
 
   const refresh = (): void => {
@@ -56,7 +68,14 @@ interface Control {
 /** The number of the frame: typed, it goes exactly there. */
 function frameField(player: Player): Control {
   const last = Math.max((player.leading?.frames ?? 1) - 1, 0);
-  const input = h('input', { type: 'number', id: 'frame', min: '0', max: String(last), step: '1', inputmode: 'numeric' });
+  const input = h('input', {
+    type: 'number',
+    id: 'frame',
+    min: '0',
+    max: String(last),
+    step: '1',
+    inputmode: 'numeric',
+  });
   const go = (): void => {
     if (input.value !== '') player.goTo(Number(input.value));
   };
@@ -65,7 +84,13 @@ function frameField(player: Player): Control {
     if (event.key === 'Enter') go();
     if (event.key === 'Escape') input.blur();
   };
-  const element = h('span', { class: 'frame' }, h('label', { for: 'frame' }, 'Frame'), input, h('span', { class: 'of' }, `of ${last.toLocaleString('en')}`));
+  const element = h(
+    'span',
+    { class: 'frame' },
+    h('label', { for: 'frame' }, 'Frame'),
+    input,
+    h('span', { class: 'of' }, `of ${last.toLocaleString('en')}`),
+  );
   input.style.width = `${String(last).length + 3}ch`;
   const refresh = (): void => {
     const now = String(player.frame());
@@ -87,18 +112,37 @@ function speedChoice(player: Player): Control {
 
 function rangeButtons(player: Player): Control {
   const { playhead } = player;
-  const from = h('button', { type: 'button', title: 'The range begins here (i)', onclick: () => playhead.mark('from') }, 'In');
-  const to = h('button', { type: 'button', title: 'The range ends here (o)', onclick: () => playhead.mark('to') }, 'Out');
+  const from = h(
+    'button',
+    { type: 'button', title: 'The range begins here (i)', onclick: () => playhead.mark('from') },
+    'In',
+  );
+  const to = h(
+    'button',
+    { type: 'button', title: 'The range ends here (o)', onclick: () => playhead.mark('to') },
+    'Out',
+  );
   const clear = button('remove', 'No range', 'u', () => playhead.clearRange());
   const repeat = button('loop', 'Repeat', 'r', () => (playhead.repeat = !playhead.repeat));
   const refresh = (): void => {
     clear.disabled = playhead.range === null;
     setAttribute(repeat, 'aria-pressed', String(playhead.repeat));
   };
-  const element = h('div', { class: 'group range-buttons', role: 'group', 'aria-label': 'Range' }, from, to, clear, repeat);
+  const element = h(
+    'div',
+    { class: 'group range-buttons', role: 'group', 'aria-label': 'Range' },
+    from,
+    to,
+    clear,
+    repeat,
+  );
   return { element, refresh };
 }
 
 function button(name: Icon, label: string, key: string, onclick: () => void): HTMLButtonElement {
-  return h('button', { type: 'button', class: 'icon', 'aria-label': label, title: `${label} (${key})`, onclick }, icon(name));
+  return h(
+    'button',
+    { type: 'button', class: 'icon', 'aria-label': label, title: `${label} (${key})`, onclick },
+    icon(name),
+  );
 }

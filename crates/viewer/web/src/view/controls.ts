@@ -12,7 +12,13 @@ import { SHOWN, type Shown, type ToolState, pageActions, tools } from './tools';
 import { openHelp } from './help';
 
 export class ViewControls {
-  private readonly show: Record<Shown, boolean> = { names: true, axes: false, trails: false, com: false, markers: true };
+  private readonly show: Record<Shown, boolean> = {
+    names: true,
+    axes: false,
+    trails: false,
+    com: false,
+    markers: true,
+  };
   private theme: Theme = initialTheme();
   private readonly showTools: (state: ToolState) => void;
 

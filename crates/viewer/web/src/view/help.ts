@@ -6,12 +6,20 @@ import { icon } from '../dom/icons';
 /** Opens the dialog; closing it brings the focus back to where it was. */
 export function openHelp(takes: boolean): void {
   const dialog = h('dialog', { class: 'help', 'aria-labelledby': 'help-title' });
-  const close = h('button', { type: 'button', class: 'icon', 'aria-label': 'Close', onclick: () => dialog.close() }, icon('remove'));
+  const close = h(
+    'button',
+    { type: 'button', class: 'icon', 'aria-label': 'Close', onclick: () => dialog.close() },
+    icon('remove'),
+  );
   const groups = takes ? [...TAKE_KEYS, ...KEYS] : KEYS;
   dialog.append(
     h('header', {}, h('h2', { id: 'help-title' }, 'Keys'), close),
     ...groups.map(([title, keys]) => h('section', {}, h('h3', {}, title), list(keys))),
-    h('p', { class: 'aside' }, 'Drag to orbit, right-drag or two fingers to move, wheel or pinch to zoom. Click a performer to follow.'),
+    h(
+      'p',
+      { class: 'aside' },
+      'Drag to orbit, right-drag or two fingers to move, wheel or pinch to zoom. Click a performer to follow.',
+    ),
   );
   dialog.onclick = (event) => event.target === dialog && dialog.close();
   dialog.onclose = () => dialog.remove();

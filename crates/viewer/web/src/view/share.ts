@@ -24,7 +24,8 @@ export function writeHash(view: SharedView): string {
   if (view.show) add('show', view.show.join(','));
   if (view.hidden?.length) add('hidden', view.hidden.join(','));
   if (view.frame !== undefined) add('frame', String(view.frame));
-  for (const plot of view.plots ?? []) add('plot', encodeURIComponent(plot).replaceAll('%2F', '/').replaceAll('%3A', ':'));
+  for (const plot of view.plots ?? [])
+    add('plot', encodeURIComponent(plot).replaceAll('%2F', '/').replaceAll('%3A', ':'));
   return parts.join('&');
 }
 

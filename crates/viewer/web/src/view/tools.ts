@@ -33,7 +33,12 @@ export function tools(element: HTMLElement, actions: ToolActions): (state: ToolS
     const onclick = (): void => actions.show(what);
     return h('button', { type: 'button', title: `${label} (${key})`, 'aria-pressed': 'false', onclick }, label);
   });
-  const plots = h('button', { type: 'button', title: 'Plots (g)', 'aria-pressed': 'false', onclick: actions.plots }, icon('plots'), 'Plots');
+  const plots = h(
+    'button',
+    { type: 'button', title: 'Plots (g)', 'aria-pressed': 'false', onclick: actions.plots },
+    icon('plots'),
+    'Plots',
+  );
   element.append(
     h('div', { class: 'group', role: 'group', 'aria-label': 'Camera' }, ...presets),
     h('div', { class: 'group', role: 'group', 'aria-label': 'Show' }, ...toggles),
@@ -48,7 +53,11 @@ export function tools(element: HTMLElement, actions: ToolActions): (state: ToolS
 /** Fills the bar at the top of the page. */
 export function pageActions(element: HTMLElement, actions: ToolActions): void {
   const button = (name: Icon, label: string, key: string, onclick: () => void): HTMLElement =>
-    h('button', { type: 'button', class: 'icon', 'aria-label': label, title: `${label} (${key})`, onclick }, icon(name));
+    h(
+      'button',
+      { type: 'button', class: 'icon', 'aria-label': label, title: `${label} (${key})`, onclick },
+      icon(name),
+    );
   element.append(
     button('camera', 'Save a picture', 'p', actions.screenshot),
     button('link', 'Copy the address of this view', 's', actions.share),
