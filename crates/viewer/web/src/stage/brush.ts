@@ -6,7 +6,7 @@ import { Lines } from './batch/lines';
 
 /** Everything that is drawn anew with each sample: one draw call for each of these, however many performers there are. */
 export class Brush {
-  readonly near = new Limbs({ sides: 18, capRings: 4, shaftRings: 3 }, cloth());
+  readonly near = new Limbs({ sides: 18, capRings: 4, shaftRings: 5 }, cloth());
   /** For performers who are small in the picture, and for those who are hardly more than a dot. */
   readonly far = new Limbs({ sides: 8, capRings: 2, shaftRings: 0 }, felt());
   readonly tiny = new Limbs({ sides: 5, capRings: 1, shaftRings: 0 }, felt());

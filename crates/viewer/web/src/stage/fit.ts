@@ -10,12 +10,12 @@ export interface Fit {
 export function fit(points: Vector3[], direction: Vector3, fov: number, aspect: number): Fit {
   const right = new Vector3(0, 0, 1).cross(direction).normalize();
   const up = direction.clone().cross(right);
-  const tall = Math.tan(MathUtils.degToRad(fov / 2)) * ROOM;
+  const half = Math.tan(MathUtils.degToRad(fov / 2));
   const depths = points.map((point) => point.dot(direction));
   const [across, over] = [right, up].map((axis) => points.map((point) => point.dot(axis))) as [number[], number[]];
   const away = Math.max(
-    nearest(across, depths, tall * aspect),
-    nearest(over, depths, tall),
+    nearest(across, depths, half * aspect * WIDE),
+    nearest(over, depths, half * TALL),
     Math.max(...depths) + NEAREST,
   );
   const middle = mean(depths);
@@ -33,8 +33,9 @@ export function bestDirection(points: Vector3[], directions: Vector3[], fov: num
   return directions.find((_, place) => (distances[place] ?? Infinity) < nearest * 1.25) ?? new Vector3(1, 0, 0);
 }
 
-/** The share of the picture that is filled. */
-const ROOM = 0.8;
+/** The shares of the picture that are filled: above and below names and controls have their place. */
+const WIDE = 0.82;
+const TALL = 0.7;
 /** The least distance from the nearest point. */
 const NEAREST = 1.2;
 

@@ -226,7 +226,7 @@ export class Stage {
     const places = this.shown().flatMap((performer) => performer.centre() ?? []);
     if (places.length === 0) return;
     if (this.framed !== places.length) this.eye.look(this.side, this.outline(null), this.framed === 0 || undefined);
-    else if (!places.every((place) => this.eye.sees(place))) this.eye.widen(this.outline(null));
+    else if (!places.every((place) => this.eye.sees(place))) this.eye.widen(places.flatMap(roomAround));
     this.framed = places.length;
   }
 
@@ -305,6 +305,14 @@ function around(points: Vector3[]): { centre: Vector3; radius: number } {
   const box = new Box3().setFromPoints(points);
   return { centre: box.getCenter(new Vector3()), radius: box.getSize(new Vector3()).setZ(0).length() / 2 };
 }
+
+/** Where somebody at a place may be before long. */
+function roomAround({ x, y }: Vector3): Vector3[] {
+  return [-ROOM, ROOM].flatMap((dx) => [-ROOM, ROOM].flatMap((dy) => [0, 1.9].map((z) => new Vector3(x + dx, y + dy, z))));
+}
+
+/** Metres of room around somebody, so that the view need not move at each step. */
+const ROOM = 1.2;
 
 /** How long nothing moves, in seconds, until the picture is drawn once more as well as can be. */
 const STILL_AFTER = 0.3;

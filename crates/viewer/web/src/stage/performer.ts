@@ -20,7 +20,7 @@ export class Performer {
   constructor(readonly subject: Subject) {
     this.color = subjectColor(subject);
     this.roles = roles(subject.segments);
-    this.pose = new ShownPose(subject.segments, describedNullPose(subject.segments));
+    this.pose = new ShownPose(subject.segments, describedNullPose(subject.segments), BERTH * subject.id);
     this.parts = bodyParts(subject, this.pose.nullPose);
     this.trails = new Map(trailed(subject, this.roles).map((place) => [place, new Trail()]));
   }
@@ -111,6 +111,9 @@ export class Performer {
     return points;
   }
 }
+
+/** Metres between subjects of which nobody knows where they are. */
+const BERTH = 1.2;
 
 function segments(count: number): string {
   return count === 1 ? '1 segment' : `${count} segments`;

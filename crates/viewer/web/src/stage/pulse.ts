@@ -30,7 +30,7 @@ export class Pulse {
     this.request = requestAnimationFrame(this.frame);
     const spent = Math.max(now - this.last, 0);
     this.last = now;
-    this.drewLast = this.tick(Math.min(spent / 1000, 0.1), this.drewLast ? spent : null);
+    this.drewLast = this.tick(Math.min(spent / 1000, 0.5), this.drewLast ? spent : null);
     if (this.drewLast) this.drawn.push(performance.now());
     if (this.drawn.length > 240) this.drawn.splice(0, 120);
   };

@@ -1,4 +1,5 @@
-import type { Segment, SubjectRecord } from '../../protocol/types';
+import { Flag, type Segment, type SubjectRecord } from '../../protocol/types';
+import { inPlace } from './in_place';
 import { Inference } from './infer';
 import { type NullPose, observedNullPose } from './null_pose';
 
@@ -23,6 +24,8 @@ export class ShownPose {
   constructor(
     private readonly segments: Segment[],
     public nullPose: NullPose,
+    /** How far aside it stands when it streams orientations alone, metres along Y. */
+    private readonly aside = 0,
   ) {
     this.position = new Float32Array(3 * segments.length).fill(NaN);
     this.orientation = new Float32Array(4 * segments.length).fill(NaN);
@@ -32,10 +35,13 @@ export class ShownPose {
 
   /** Takes a sample in. True when it showed another null pose than was known, so that bodies must be built anew. */
   take(record: SubjectRecord): boolean {
-    const { position, orientation } = record;
-    const turns = orientation.slice();
+    const turns = record.orientation.slice();
+    const position =
+      record.flags & Flag.InPlace
+        ? inPlace(this.segments, this.nullPose, rooted(record.position), turns, this.aside)
+        : record.position;
     this.turned = turns.some(Number.isFinite);
-    const grown = this.observe(position, orientation);
+    const grown = this.observe(position, turns);
     this.inference.fill(position, turns);
     for (let place = 0; place < this.segments.length; place += 1) this.place(place, position, turns);
     return grown;
@@ -70,6 +76,12 @@ export class ShownPose {
     this.inference = new Inference(this.segments, observed);
     return true;
   }
+}
+
+/** Without a root that stands on nothing: a server that knows no scale has the root alone, at the origin. */
+function rooted(position: Float32Array): Float32Array {
+  const alone = position.subarray(3).every(Number.isNaN);
+  return alone ? new Float32Array(position.length).fill(NaN) : position;
 }
 
 const OBSERVE_EVERY = 30;
