@@ -26,7 +26,7 @@ export function recorder(room: Room, say: (text: string) => void): Part {
   form.onsubmit = (event) => {
     event.preventDefault();
     button.disabled = true;
-    const asked = recording(room)
+    const asked = isRecording(room)
       ? post('/api/recorder/stop')
       : post('/api/recorder/start', { name: name.value.trim() || 'take' });
     asked
@@ -41,7 +41,7 @@ export function recorder(room: Room, say: (text: string) => void): Part {
     try {
       room.recorder = await json<Recorder>('/api/recorder');
       const recordings = await json<Recording[]>('/api/recordings');
-      list.replaceChildren(...recordings.map(recordingRow));
+      list.replaceChildren(...recordings.filter((recording) => !isWritten(recording, room)).map(recordingRow));
     } catch (error) {
       say(words(error));
     }
@@ -58,15 +58,20 @@ export function recorder(room: Room, say: (text: string) => void): Part {
     if (was === 'recording' && state !== 'recording') void reload();
     was = state;
     setAttribute(element, 'data-state', state);
-    setText(button.querySelector('span')!, recording(room) ? 'Stop' : 'Record');
-    setAttribute(name, 'disabled', recording(room) ? '' : null);
+    setText(button.querySelector('span')!, isRecording(room) ? 'Stop' : 'Record');
+    setAttribute(name, 'disabled', isRecording(room) ? '' : null);
     setText(status, statusText(room.recorder));
   };
   return { element, refresh };
 }
 
-function recording(room: Room): boolean {
+function isRecording(room: Room): boolean {
   return room.recorder?.state === 'recording';
+}
+
+/** Whether it is still being written: what is fetched now would be torn. */
+function isWritten(recording: Recording, room: Room): boolean {
+  return isRecording(room) && recording.name === `${room.recorder?.name}.mcap`;
 }
 
 /** "Recording walk: 0:12, 3.4 MB, 12,345 datagrams". */
