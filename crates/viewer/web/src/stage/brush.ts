@@ -1,4 +1,12 @@
-import { Color, type Material, MeshBasicMaterial, MeshLambertMaterial, MeshStandardMaterial, type Object3D, ShaderMaterial } from 'three';
+import {
+  Color,
+  type Material,
+  MeshBasicMaterial,
+  MeshLambertMaterial,
+  MeshStandardMaterial,
+  type Object3D,
+  ShaderMaterial,
+} from 'three';
 import { Boxes } from './batch/boxes';
 import { Disks } from './batch/disks';
 import { Limbs } from './batch/limbs';
@@ -6,25 +14,44 @@ import { Lines } from './batch/lines';
 
 /** Everything that is drawn anew with each sample: one draw call for each of these, however many performers there are. */
 export class Brush {
+  /** For performers who fill the picture, where there is the time. */
+  readonly close = new Limbs({ sides: 32, capRings: 8, shaftRings: 7 }, cloth());
   readonly near = new Limbs({ sides: 18, capRings: 4, shaftRings: 5 }, cloth());
   /** For performers who are small in the picture, and for those who are hardly more than a dot. */
   readonly far = new Limbs({ sides: 8, capRings: 2, shaftRings: 0 }, felt());
   readonly tiny = new Limbs({ sides: 5, capRings: 1, shaftRings: 0 }, felt());
   readonly fine = new Limbs({ sides: 7, capRings: 2, shaftRings: 0 }, felt());
   readonly ghost = new Limbs({ sides: 12, capRings: 3, shaftRings: 2 }, mist());
-  readonly balls = new Limbs({ sides: 10, capRings: 4, shaftRings: 0 }, new MeshBasicMaterial({ vertexColors: true, toneMapped: false }));
+  readonly balls = new Limbs(
+    { sides: 10, capRings: 4, shaftRings: 0 },
+    new MeshBasicMaterial({ vertexColors: true, toneMapped: false }),
+  );
   /** What is inside bodies and shall be seen through them. */
   readonly inner = new Limbs({ sides: 16, capRings: 5, shaftRings: 0 }, inside());
   readonly boxes = new Boxes(cloth());
   readonly lines = new Lines(false);
   readonly topLines = new Lines(true);
   readonly disks = new Disks();
-  private readonly all = [this.near, this.far, this.tiny, this.fine, this.ghost, this.balls, this.inner, this.boxes, this.lines, this.topLines, this.disks];
+  private readonly all = [
+    this.close,
+    this.near,
+    this.far,
+    this.tiny,
+    this.fine,
+    this.ghost,
+    this.balls,
+    this.inner,
+    this.boxes,
+    this.lines,
+    this.topLines,
+    this.disks,
+  ];
 
   constructor(parent: Object3D) {
     for (const batch of this.all) parent.add(batch.mesh);
-    for (const batch of [this.near, this.far, this.tiny, this.fine, this.boxes]) batch.mesh.castShadow = true;
-    for (const batch of [this.near, this.boxes]) batch.mesh.receiveShadow = true;
+    for (const batch of [this.close, this.near, this.far, this.tiny, this.fine, this.boxes])
+      batch.mesh.castShadow = true;
+    for (const batch of [this.close, this.near, this.boxes]) batch.mesh.receiveShadow = true;
     this.disks.mesh.renderOrder = 1;
     this.ghost.mesh.renderOrder = 5;
     this.lines.mesh.renderOrder = 6;

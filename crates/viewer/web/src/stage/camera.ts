@@ -122,7 +122,10 @@ export class Eye {
       return false;
     }
     const share = 1 - Math.exp(-seconds * 7);
-    const step = goal.clone().sub(this.along).multiply(new Vector3(share, share, share * 0.3));
+    const step = goal
+      .clone()
+      .sub(this.along)
+      .multiply(new Vector3(share, share, share * 0.3));
     if (step.lengthSq() < 1e-10) return false;
     for (const place of [this.along, this.camera.position, this.controls.target, this.flight?.from, this.flight?.to]) {
       place?.add(step);

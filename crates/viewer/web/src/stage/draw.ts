@@ -18,12 +18,15 @@ export interface Manner {
   soft: number;
   /** How many pixels high a person is where it stands. */
   pixels: number;
+  /** Whether there is time for many triangles. */
+  lavish: boolean;
 }
 
 /** Draws one subject with all that the options ask for. */
-export function draw(performer: Performer, brush: Brush, { look, options, soft, pixels }: Manner): void {
+export function draw(performer: Performer, brush: Brush, manner: Manner): void {
+  const { look, options, soft } = manner;
   const colors = tones(performer.color, performer.state, look);
-  drawParts(performer, brush, colors, pixels);
+  drawParts(performer, brush, colors, manner);
   drawObject(performer, brush, colors);
   drawGround(performer, brush, look, colors, soft);
   if (options.axes || performer.subject.kind === 'rigid body') drawAxes(performer, brush);
@@ -38,20 +41,28 @@ function presence(performer: Performer, segment: number): number {
   return performer.state === State.Lost ? Math.min(seen, Seen.Before) : seen;
 }
 
-function drawParts(performer: Performer, brush: Brush, colors: Tones, pixels: number): void {
-  const body = pixels < TINY ? brush.tiny : pixels < SMALL ? brush.far : brush.near;
+function drawParts(performer: Performer, brush: Brush, colors: Tones, { pixels, lavish }: Manner): void {
+  const body =
+    pixels < TINY ? brush.tiny : pixels < SMALL ? brush.far : pixels > LARGE && lavish ? brush.close : brush.near;
   for (const part of performer.parts) {
     if (part.fine && pixels < TINY) continue;
     const seen = presence(performer, part.segment);
     if (seen === Seen.Never) continue;
     const batch = seen === Seen.Before ? brush.ghost : part.fine ? brush.fine : body;
-    batch.add(part, start(performer, part), turn(performer, part), seen === Seen.Before ? colors.accent : colors[part.tone]);
+    batch.add(
+      part,
+      start(performer, part),
+      turn(performer, part),
+      seen === Seen.Before ? colors.accent : colors[part.tone],
+    );
   }
 }
 
 /** Persons of fewer pixels are drawn with fewer triangles, and still smaller ones without fingers. */
 const SMALL = 210;
 const TINY = 110;
+/** From here on the edges of triangles would be seen. */
+const LARGE = 480;
 
 const PLACE = new Vector3();
 const TURN = new Quaternion();
@@ -102,7 +113,12 @@ function drawGround(performer: Performer, brush: Brush, look: Look, colors: Tone
 function grounded(performer: Performer): number[] {
   const { roles, subject } = performer;
   if (!roles) return subject.segments.map((_, place) => place).slice(0, 40);
-  const limbs = [roles.left, roles.right].flatMap(({ foot, toe, lowerLeg, hand }) => [foot, toe ?? foot, lowerLeg, hand]);
+  const limbs = [roles.left, roles.right].flatMap(({ foot, toe, lowerLeg, hand }) => [
+    foot,
+    toe ?? foot,
+    lowerLeg,
+    hand,
+  ]);
   return [roles.pelvis, roles.head, ...limbs];
 }
 

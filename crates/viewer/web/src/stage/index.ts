@@ -144,7 +144,10 @@ export class Stage {
     this.render();
     return new Promise((resolve, reject) => {
       // Taken in the same task as drawn: a browser may clear the canvas after it.
-      this.canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('the browser made no picture'))), 'image/png');
+      this.canvas.toBlob(
+        (blob) => (blob ? resolve(blob) : reject(new Error('the browser made no picture'))),
+        'image/png',
+      );
     });
   }
 
@@ -160,7 +163,8 @@ export class Stage {
     this.canvas.removeEventListener('webglcontextrestored', this.onRestored);
     this.canvas.removeEventListener('pointerdown', this.onDown);
     this.canvas.removeEventListener('pointerup', this.onUp);
-    for (const part of [this.eye, this.brush, this.floor, this.sky, this.lights, this.tags, this.renderer]) part.dispose();
+    for (const part of [this.eye, this.brush, this.floor, this.sky, this.lights, this.tags, this.renderer])
+      part.dispose();
   }
 
   /** One frame of the screen; true when something was drawn that tells how quick drawing is. */
@@ -198,7 +202,8 @@ export class Stage {
     this.brush.begin();
     const soft = this.look.shadow * (this.step.shadows > 0 ? 0.42 : 0.85);
     for (const performer of shown) {
-      draw(performer, this.brush, { look: this.look, options: this.options, soft, pixels: this.pixels(performer) });
+      const manner = { look: this.look, options: this.options, soft, lavish: this.step.shadows > 0 };
+      draw(performer, this.brush, { ...manner, pixels: this.pixels(performer) });
     }
     this.brush.end();
     this.tags.write(this.options.names ? shown : [], this.look);
@@ -209,7 +214,10 @@ export class Stage {
   private pixels(performer: Performer): number {
     const { camera } = this.eye;
     const away = performer.centre()?.distanceTo(camera.position) ?? Infinity;
-    return (1.75 * this.size.height * this.renderer.getPixelRatio()) / (2 * Math.tan((camera.fov * Math.PI) / 360) * Math.max(away, 0.1));
+    return (
+      (1.75 * this.size.height * this.renderer.getPixelRatio()) /
+      (2 * Math.tan((camera.fov * Math.PI) / 360) * Math.max(away, 0.1))
+    );
   }
 
   /** Light and the clear part of the floor go where there is something to see. */
@@ -294,7 +302,10 @@ export class Stage {
     caster.setFromCamera(new Vector2(x, y), this.eye.camera);
     const bodies = this.shown().map(({ subject, pose }) => ({
       id: subject.id,
-      points: pickPoints(pose.position, subject.segments.map((segment) => segment.parent)),
+      points: pickPoints(
+        pose.position,
+        subject.segments.map((segment) => segment.parent),
+      ),
     }));
     return pick(caster.ray, bodies);
   }
@@ -308,7 +319,9 @@ function around(points: Vector3[]): { centre: Vector3; radius: number } {
 
 /** Where somebody at a place may be before long. */
 function roomAround({ x, y }: Vector3): Vector3[] {
-  return [-ROOM, ROOM].flatMap((dx) => [-ROOM, ROOM].flatMap((dy) => [0, 1.9].map((z) => new Vector3(x + dx, y + dy, z))));
+  return [-ROOM, ROOM].flatMap((dx) =>
+    [-ROOM, ROOM].flatMap((dy) => [0, 1.9].map((z) => new Vector3(x + dx, y + dy, z))),
+  );
 }
 
 /** Metres of room around somebody, so that the view need not move at each step. */

@@ -28,7 +28,8 @@ export function pickPoints(position: Float32Array, parents: (number | null)[]): 
   parents.forEach((parent, place) => {
     for (let axis = 0; axis < 3; axis += 1) {
       const here = position[3 * place + axis] ?? NaN;
-      points[position.length + 3 * place + axis] = (here + (parent === null ? here : (position[3 * parent + axis] ?? NaN))) / 2;
+      points[position.length + 3 * place + axis] =
+        (here + (parent === null ? here : (position[3 * parent + axis] ?? NaN))) / 2;
     }
   });
   return points;

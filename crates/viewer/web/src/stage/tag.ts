@@ -1,4 +1,14 @@
-import { CanvasTexture, type Color, LinearFilter, MathUtils, type PerspectiveCamera, Sprite, SpriteMaterial, SRGBColorSpace, type Vector3 } from 'three';
+import {
+  CanvasTexture,
+  type Color,
+  LinearFilter,
+  MathUtils,
+  type PerspectiveCamera,
+  Sprite,
+  SpriteMaterial,
+  SRGBColorSpace,
+  type Vector3,
+} from 'three';
 import type { Look } from './room/theme';
 
 /** What a name tag says. */
@@ -18,7 +28,13 @@ export class Tag {
   private size = { width: 1, height: 1 };
 
   constructor() {
-    const material = new SpriteMaterial({ transparent: true, depthTest: false, depthWrite: false, sizeAttenuation: false, toneMapped: false });
+    const material = new SpriteMaterial({
+      transparent: true,
+      depthTest: false,
+      depthWrite: false,
+      sizeAttenuation: false,
+      toneMapped: false,
+    });
     this.sprite = new Sprite(material);
     // A little above its place on the screen, so that it hides nobody from above either.
     this.sprite.center.set(0.5, -0.55);

@@ -30,7 +30,8 @@ export class Trail {
     const count = this.times.length;
     const at = (place: number): number[] => this.points.slice(3 * place, 3 * place + 3);
     const fade = (place: number) => (place / count) ** 1.4 * 0.85;
-    for (let place = 0; place + 1 < count; place += 1) lines.add(at(place), at(place + 1), color, 2.2, fade(place), fade(place + 1));
+    for (let place = 0; place + 1 < count; place += 1)
+      lines.add(at(place), at(place + 1), color, 2.2, fade(place), fade(place + 1));
     if (count > 0) lines.add(at(count - 1), now, color, 2.2, fade(count - 1), 0.85);
   }
 }

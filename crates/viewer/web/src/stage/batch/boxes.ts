@@ -1,4 +1,12 @@
-import { type Color, DynamicDrawUsage, InstancedMesh, type Material, Matrix4, type Quaternion, type Vector3 } from 'three';
+import {
+  type Color,
+  DynamicDrawUsage,
+  InstancedMesh,
+  type Material,
+  Matrix4,
+  type Quaternion,
+  type Vector3,
+} from 'three';
 import { RoundedBoxGeometry } from 'three/addons/geometries/RoundedBoxGeometry.js';
 
 /** Boxes with rounded edges, in one draw call. Every frame: `begin`, `add` each, `end`. */

@@ -42,7 +42,14 @@ export class Limbs {
   /** A part at a place: where it starts and how its axes are turned in the room. */
   add(part: Part, at: Vector3, turn: Quaternion, color: Color): void {
     const { start, end, caps } = part;
-    this.put(at, part.length, turn, [start[0], start[1], end[0], end[1]], [part.bulge, part.bow, caps[0], caps[1]], color);
+    this.put(
+      at,
+      part.length,
+      turn,
+      [start[0], start[1], end[0], end[1]],
+      [part.bulge, part.bow, caps[0], caps[1]],
+      color,
+    );
   }
 
   /** A ball. */

@@ -69,9 +69,13 @@ function reach(part: Part): Vector3[] {
     [part.length, part.end, part.caps[1]],
   ];
   return ends.flatMap(([x, [broad, deep], cap]) =>
-    [new Vector3(x === 0 ? -cap : x + cap, 0, 0), new Vector3(x, broad, 0), new Vector3(x, -broad, 0), new Vector3(x, 0, deep), new Vector3(x, 0, -deep)].map(
-      (point) => point.applyQuaternion(part.turn).add(part.at).add(origin),
-    ),
+    [
+      new Vector3(x === 0 ? -cap : x + cap, 0, 0),
+      new Vector3(x, broad, 0),
+      new Vector3(x, -broad, 0),
+      new Vector3(x, 0, deep),
+      new Vector3(x, 0, -deep),
+    ].map((point) => point.applyQuaternion(part.turn).add(part.at).add(origin)),
   );
 }
 

@@ -12,7 +12,11 @@ export function fingers(segments: Segment[], pose: NullPose, size: number): Part
 /** Fingers for a hand whose fingers are not captured: a flat, slightly bent mitten with a thumb, fixed to the hand. */
 export function mitten(hand: Limbs['hand'], out: Vector3, size: number): Part[] {
   const at = (forward: number, outward: number, up: number) =>
-    out.clone().normalize().multiplyScalar(outward * size).add(new Vector3(forward * size, 0, up * size));
+    out
+      .clone()
+      .normalize()
+      .multiplyScalar(outward * size)
+      .add(new Vector3(forward * size, 0, up * size));
   const finger = (forward: number, knuckle: number, tip: number) =>
     part(hand, at(forward, knuckle, -0.002), at(forward * 1.05, tip, -0.012), {
       start: [0.0105 * size, 0.0105 * size],

@@ -143,12 +143,20 @@ function head(body: Body): Part[] {
   const size = top / 0.23;
   const at = (x: number, y: number, z: number) => new Vector3(x, y, z).multiplyScalar(size);
   return [
-    part(neck, body.at(-0.008, 0, -0.05), body.way(neck, skull).multiplyScalar(0.42).add(body.at(-0.002, 0, 0)), {
-      start: body.section(0.135, 0.082),
-      end: body.section(0.064, 0.066),
-      caps: body.caps(0.03, 0.006),
-      bulge: -0.01 * body.size,
-    }),
+    part(
+      neck,
+      body.at(-0.008, 0, -0.05),
+      body
+        .way(neck, skull)
+        .multiplyScalar(0.42)
+        .add(body.at(-0.002, 0, 0)),
+      {
+        start: body.section(0.135, 0.082),
+        end: body.section(0.064, 0.066),
+        caps: body.caps(0.03, 0.006),
+        bulge: -0.01 * body.size,
+      },
+    ),
     part(neck, body.at(0, 0, 0), body.way(neck, skull).add(at(0.006, 0, 0.03)), {
       start: body.section(0.058, 0.058),
       end: body.section(0.055, 0.058),

@@ -18,7 +18,10 @@ export function inPlace(
   for (let at = 1; at < placed.length; at += 3) placed[at] = (placed[at] ?? NaN) + aside;
   segments.forEach(({ parent }, place) => {
     if (Number.isFinite(placed[3 * place])) return;
-    const found = parent === null ? root(nullPose[place] ?? null, aside) : hung(segments, nullPose, placed, orientation, place, parent);
+    const found =
+      parent === null
+        ? root(nullPose[place] ?? null, aside)
+        : hung(segments, nullPose, placed, orientation, place, parent);
     found?.toArray(placed, 3 * place);
   });
   return placed;

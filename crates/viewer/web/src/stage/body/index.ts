@@ -34,5 +34,7 @@ function hands(subject: Subject, pose: NullPose, person: Roles, size: number): P
 function known(pose: NullPose, person: Roles): boolean {
   const { left, right, spine } = person;
   const limbs = [left, right].flatMap((side) => Object.values(side) as (number | null)[]);
-  return [person.pelvis, person.neck, person.head, ...spine, ...limbs].every((place) => place === null || !!pose[place]);
+  return [person.pelvis, person.neck, person.head, ...spine, ...limbs].every(
+    (place) => place === null || !!pose[place],
+  );
 }

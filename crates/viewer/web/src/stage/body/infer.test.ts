@@ -16,7 +16,10 @@ test('a body that turned as a whole is turned so', () => {
   const turn = new Quaternion().setFromAxisAngle(new Vector3(0, 0, 1), 2.1);
   const { position } = tPose(segments);
   for (let place = 0; place < segments.length; place += 1) {
-    new Vector3().fromArray(position, 3 * place).applyQuaternion(turn).toArray(position, 3 * place);
+    new Vector3()
+      .fromArray(position, 3 * place)
+      .applyQuaternion(turn)
+      .toArray(position, 3 * place);
   }
   for (const found of inferred(position)) expect(found.angleTo(turn)).toBeLessThan(1e-3);
 });

@@ -83,7 +83,8 @@ function waysFrom(segments: Segment[], pose: NullPose, place: number): Way[] {
 function parentsFirst(segments: Segment[]): number[] {
   const depth = segments.map((_, place) => {
     let steps = 0;
-    for (let at: number | null = place; at !== null && steps <= segments.length; steps += 1) at = segments[at]?.parent ?? null;
+    for (let at: number | null = place; at !== null && steps <= segments.length; steps += 1)
+      at = segments[at]?.parent ?? null;
     return steps;
   });
   return segments.map((_, place) => place).sort((a, b) => (depth[a] ?? 0) - (depth[b] ?? 0));

@@ -19,7 +19,11 @@ test('a sample tells the lengths of a skeleton that was described by its names a
   const turn = new Quaternion().setFromAxisAngle(new Vector3(0, 0, 1), 1.2);
   const { position, orientation } = tPose(segments);
   for (let place = 0; place < segments.length; place += 1) {
-    new Vector3().fromArray(position, 3 * place).multiplyScalar(1.1).applyQuaternion(turn).toArray(position, 3 * place);
+    new Vector3()
+      .fromArray(position, 3 * place)
+      .multiplyScalar(1.1)
+      .applyQuaternion(turn)
+      .toArray(position, 3 * place);
     orientation.set([turn.w, turn.x, turn.y, turn.z], 4 * place);
   }
   const observed = observedNullPose(segments, describedNullPose(segments), position, orientation);
@@ -33,7 +37,12 @@ test('without orientations only lengths are learnt', () => {
   orientation.fill(NaN);
   position.set([0.3, -0.17, 1.38], 3 * 9);
   const observed = observedNullPose(segments, describedNullPose(segments), position, orientation);
-  expect(observed && offset(segments, observed, 9)?.toArray().map((value) => Math.round(value * 1e5) / 1e5)).toEqual([0, -0.3, 0]);
+  expect(
+    observed &&
+      offset(segments, observed, 9)
+        ?.toArray()
+        .map((value) => Math.round(value * 1e5) / 1e5),
+  ).toEqual([0, -0.3, 0]);
 });
 
 test('segments that are not tracked keep what was known of them', () => {

@@ -46,7 +46,9 @@ export function observedNullPose(
     const seen = seenOffset(segment.parent, place, described, position, orientation);
     const way = seen ?? described;
     const from = segment.parent == null ? new Vector3() : observed[segment.parent];
-    observed.push(way && from ? from.clone().add(way) : (known[place]?.clone() ?? (segment.parent == null ? new Vector3() : null)));
+    observed.push(
+      way && from ? from.clone().add(way) : (known[place]?.clone() ?? (segment.parent == null ? new Vector3() : null)),
+    );
     if (seen && (!described || seen.distanceTo(described) > tolerance)) differs = true;
   });
   return differs ? observed : null;

@@ -26,7 +26,8 @@ export interface Roles {
 /** The roles of a skeleton that is a person's, by the names that MVN and Motive give; null for all other skeletons. */
 export function roles(segments: Segment[]): Roles | null {
   const places = new Map(segments.map((segment, place) => [bare(segment.name), place]));
-  const find = (...names: string[]) => names.map((name) => places.get(name)).find((place) => place !== undefined) ?? null;
+  const find = (...names: string[]) =>
+    names.map((name) => places.get(name)).find((place) => place !== undefined) ?? null;
   const limbs = (long: string, short: string) => ({
     shoulder: find(`${long}shoulder`, `${short}shoulder`),
     upperArm: find(`${long}upperarm`, `${short}uarm`, `${long}arm`),

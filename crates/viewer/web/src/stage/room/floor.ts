@@ -1,4 +1,15 @@
-import { CircleGeometry, Color, Mesh, MeshBasicMaterial, type Object3D, ShadowMaterial, Shape, ShapeGeometry, Vector2, type Vector3 } from 'three';
+import {
+  CircleGeometry,
+  Color,
+  Mesh,
+  MeshBasicMaterial,
+  type Object3D,
+  ShadowMaterial,
+  Shape,
+  ShapeGeometry,
+  Vector2,
+  type Vector3,
+} from 'three';
 import { displayed } from './displayed';
 import type { Look } from './theme';
 
@@ -21,7 +32,10 @@ export class Floor {
     this.ground.receiveShadow = true;
     // Drawn before everything and without depth, so that whoever is under the ground is seen nevertheless.
     this.ground.renderOrder = -10;
-    this.triangle = new Mesh(triangle(), new MeshBasicMaterial({ color: '#e5403f', toneMapped: false, depthWrite: false }));
+    this.triangle = new Mesh(
+      triangle(),
+      new MeshBasicMaterial({ color: '#e5403f', toneMapped: false, depthWrite: false }),
+    );
     this.triangle.position.z = 0.001;
     this.triangle.renderOrder = -9;
     parent.add(this.ground, this.triangle);
@@ -53,11 +67,19 @@ export class Floor {
   }
 
   private material(): ShadowMaterial {
-    const material = new ShadowMaterial({ transparent: false, depthWrite: false, depthTest: false, toneMapped: false, fog: false });
+    const material = new ShadowMaterial({
+      transparent: false,
+      depthWrite: false,
+      depthTest: false,
+      toneMapped: false,
+      fog: false,
+    });
     material.onBeforeCompile = (shader) => {
       Object.assign(shader.uniforms, this.uniforms);
-      shader.vertexShader = shader.vertexShader
-        .replace('void main() {', 'varying vec2 vGround;\nvoid main() {\nvGround = (modelMatrix * vec4(position, 1.0)).xy;');
+      shader.vertexShader = shader.vertexShader.replace(
+        'void main() {',
+        'varying vec2 vGround;\nvoid main() {\nvGround = (modelMatrix * vec4(position, 1.0)).xy;',
+      );
       shader.fragmentShader = shader.fragmentShader
         .replace('void main() {', `${GRID}\nvoid main() {`)
         .replace(/gl_FragColor = vec4\( color.*\n/, 'gl_FragColor = vec4(paint(getShadowMask()), 1.0);\n');

@@ -1,4 +1,14 @@
-import { BackSide, type BufferGeometry, Color, Float32BufferAttribute, Mesh, MeshBasicMaterial, type Object3D, SphereGeometry, type Vector3 } from 'three';
+import {
+  BackSide,
+  type BufferGeometry,
+  Color,
+  Float32BufferAttribute,
+  Mesh,
+  MeshBasicMaterial,
+  type Object3D,
+  SphereGeometry,
+  type Vector3,
+} from 'three';
 import { displayed } from './displayed';
 import type { Look } from './theme';
 
@@ -9,7 +19,10 @@ export class Sky {
   constructor(parent: Object3D) {
     // The upper half and a little more: the ground covers the rest.
     const dome = new SphereGeometry(120, 24, 20, 0, 2 * Math.PI, 0, Math.PI * 0.56).rotateX(Math.PI / 2);
-    this.mesh = new Mesh(dome, displayed(new MeshBasicMaterial({ vertexColors: true, side: BackSide, depthTest: false, depthWrite: false })));
+    this.mesh = new Mesh(
+      dome,
+      displayed(new MeshBasicMaterial({ vertexColors: true, side: BackSide, depthTest: false, depthWrite: false })),
+    );
     this.mesh.renderOrder = -20;
     this.mesh.frustumCulled = false;
     parent.add(this.mesh);

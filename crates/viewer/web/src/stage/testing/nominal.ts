@@ -33,12 +33,25 @@ export function nominalSegments(): Segment[] {
 
 export function subjectOf(segments: Segment[]): Subject {
   const contacts = ['LeftFoot_Heel', 'LeftFoot_Toe', 'RightFoot_Heel', 'RightFoot_Toe'];
-  return { id: 0, source: 0, name: 'Ada', color: null, rate_hz: 60, kind: 'person', segments, joints: [], contacts, channels: [] };
+  return {
+    id: 0,
+    source: 0,
+    name: 'Ada',
+    color: null,
+    rate_hz: 60,
+    kind: 'person',
+    segments,
+    joints: [],
+    contacts,
+    channels: [],
+  };
 }
 
 /** A sample of the T-pose, `shift` metres away from the null pose's place. */
 export function tPose(segments: Segment[], shift: Vector = [0, 0, 0]): SubjectRecord {
-  const position = segments.flatMap(({ origin }) => (origin ?? [NaN, NaN, NaN]).map((value, axis) => value + (shift[axis] ?? 0)));
+  const position = segments.flatMap(({ origin }) =>
+    (origin ?? [NaN, NaN, NaN]).map((value, axis) => value + (shift[axis] ?? 0)),
+  );
   return {
     id: 0,
     sample: 0,
