@@ -2,9 +2,8 @@
 
 use crate::Feed;
 use crate::app::App;
-use crate::feed::Seen;
+use crate::live::LiveView;
 use crate::series::{MOST_CHANNELS, Plot, Wish};
-use crate::wire;
 use axum::extract::ws::{CloseFrame, Message, WebSocket, close_code};
 use futures_util::stream::{SplitSink, SplitStream};
 use futures_util::{SinkExt, StreamExt};
@@ -165,19 +164,19 @@ async fn show_live(
     let mut view = LiveView::new();
     let mut next = Instant::now();
     loop {
-        for message in view.words(feed, app) {
-            to.send(message).await?;
+        for words in view.words(feed, app) {
+            to.send(Message::text(words)).await?;
         }
         let tick = view.tick(feed);
         app.counts.bytes.add(tick.len() as u64);
         to.send(Message::binary(tick)).await?;
         app.counts.ticks.add(1);
-        for series in view.series(wanted) {
+        for series in wanted.plot().map_or_else(Vec::new, |plot| view.series(&plot)) {
             to.send(Message::binary(series)).await?;
         }
         let missed = due_after(&mut next, wanted.period());
         app.counts.skipped.add(missed.into());
-        view.ticks = view.ticks.wrapping_add(1 + missed);
+        view.go_on(1 + missed);
         sleep_until(next).await;
     }
 }
@@ -189,72 +188,6 @@ fn due_after(next: &mut Instant, period: Duration) -> u32 {
     let missed = (late.as_secs_f64() / period.as_secs_f64()).ceil() as u32;
     *next += period * missed;
     missed
-}
-
-/// What a live page has been sent.
-#[derive(Debug)]
-struct LiveView {
-    ticks: u32,
-    seen: Seen,
-    scene: Option<(u64, Instant)>,
-    notices: u64,
-    ended: bool,
-    series: Instant,
-}
-
-impl LiveView {
-    fn new() -> Self {
-        Self {
-            ticks: 0,
-            seen: Seen::new(),
-            scene: None,
-            notices: 0,
-            ended: false,
-            series: Instant::now(),
-        }
-    }
-
-    /// The messages in words that are due.
-    fn words(&mut self, feed: &Feed, app: &App) -> Vec<Message> {
-        let now = Instant::now();
-        let mut words = Vec::new();
-        let version = feed.version();
-        let is_known = |(known, at): (u64, Instant)| known == version || now < at + SCENE_EVERY;
-        if !self.scene.is_some_and(is_known) {
-            self.scene = Some((version, now));
-            words.push(app.scene(true));
-        }
-        let (notices, count) = feed.notices(self.notices);
-        self.notices = count;
-        words.extend(notices.iter().map(|text| notice(text)));
-        if feed.has_ended() && !std::mem::replace(&mut self.ended, true) {
-            words.push(r#"{"type":"ended"}"#.to_owned());
-        }
-        words.into_iter().map(Message::text).collect()
-    }
-
-    fn tick(&mut self, feed: &Feed) -> Vec<u8> {
-        let mut tick = Vec::with_capacity(wire::TICK_HEAD);
-        feed.tick(self.ticks, &mut self.seen, &mut tick);
-        tick
-    }
-
-    fn series(&mut self, wanted: &Wanted) -> Vec<Vec<u8>> {
-        let now = Instant::now();
-        let Some(plot) = wanted.plot().filter(|_| now >= self.series + SERIES_EVERY) else {
-            return Vec::new();
-        };
-        self.series = now;
-        let fetched = lock(&plot).fetch();
-        let series = fetched
-            .iter()
-            .map(|(id, times, values)| wire::series(*id, times, values));
-        series.collect()
-    }
-}
-
-fn notice(text: &str) -> String {
-    serde_json::json!({ "type": "notice", "text": text }).to_string()
 }
 
 /// How many messages a page may send.
@@ -287,8 +220,5 @@ fn lock<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
 const USUAL_RATE: u8 = 30;
 const MOST_RATE: u8 = 120;
 const MOST_MESSAGES_A_SECOND: u32 = 200;
-/// How often a scene that changes all the time is sent.
-const SCENE_EVERY: Duration = Duration::from_millis(250);
-const SERIES_EVERY: Duration = Duration::from_millis(50);
 const SIGN_OF_LIFE: Duration = Duration::from_secs(15);
 const GOODBYE: Duration = Duration::from_secs(1);

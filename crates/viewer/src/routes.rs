@@ -4,22 +4,22 @@ use crate::app::App;
 use crate::guard::{Guard, Refusal};
 use crate::page::{self, MOST_MESSAGE};
 use crate::refusal::{Refused, refuse};
-use crate::{Content, Takes, assets, metrics};
+use crate::{Content, Takes, assets, metrics, recordings};
 use axum::Router;
 use axum::extract::rejection::{PathRejection, QueryRejection};
 use axum::extract::ws::WebSocketUpgrade;
 use axum::extract::ws::rejection::WebSocketUpgradeRejection;
-use axum::extract::{Path, Query, Request, State};
+use axum::extract::{DefaultBodyLimit, Path, Query, Request, State};
 use axum::http::header::{CACHE_CONTROL, CONTENT_TYPE, HeaderMap, LOCATION, SET_COOKIE};
 use axum::http::{Method, StatusCode};
 use axum::middleware::{self, Next};
 use axum::response::{IntoResponse, Response};
-use axum::routing::get;
-use serde::Deserialize;
+use axum::routing::{get, post};
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-type Shared = State<Arc<App>>;
-type Answer = Result<Response, Refused>;
+pub(crate) type Shared = State<Arc<App>>;
+pub(crate) type Answer = Result<Response, Refused>;
 
 /// Everything that is answered.
 pub(crate) fn router(app: &Arc<App>) -> Router {
@@ -27,6 +27,11 @@ pub(crate) fn router(app: &Arc<App>) -> Router {
         .route("/api/scene", get(scene))
         .route("/api/takes/{take}/frames", get(frames))
         .route("/api/takes/{take}/series", get(series))
+        .route("/api/recorder", get(recordings::status))
+        .route("/api/recorder/start", post(recordings::start))
+        .route("/api/recorder/stop", post(recordings::stop))
+        .route("/api/recordings", get(recordings::list))
+        .route("/api/recordings/{name}", get(recordings::fetch))
         .route("/metrics", get(metrics))
         .route("/ws", get(socket))
         .layer(middleware::from_fn_with_state(Arc::clone(app), check_token));
@@ -34,6 +39,7 @@ pub(crate) fn router(app: &Arc<App>) -> Router {
         .route("/", get(index))
         .route("/healthz", get("ok"))
         .fallback(asset)
+        .layer(DefaultBodyLimit::max(MOST_MESSAGE))
         .layer(middleware::from_fn_with_state(Arc::clone(app), check_sender))
         .with_state(Arc::clone(app))
 }
@@ -94,7 +100,7 @@ async fn asset(State(app): Shared, request: Request) -> Answer {
 }
 
 async fn scene(State(app): Shared) -> Response {
-    json(app.scene(false))
+    json_text(app.scene(false))
 }
 
 #[derive(Deserialize)]
@@ -150,7 +156,12 @@ fn takes(app: &App) -> Result<&Takes, Refused> {
     }
 }
 
-fn json(text: String) -> Response {
+/// An answer in JSON.
+pub(crate) fn json(value: &impl Serialize) -> Response {
+    json_text(serde_json::to_string(value).unwrap_or_default())
+}
+
+fn json_text(text: String) -> Response {
     let mut headers = HeaderMap::new();
     headers.insert(CONTENT_TYPE, axum::http::HeaderValue::from_static("application/json"));
     headers.insert(CACHE_CONTROL, axum::http::HeaderValue::from_static("no-store"));

@@ -4,7 +4,7 @@ use crate::app::App;
 use crate::counts::Counts;
 use crate::guard::Guard;
 use crate::token::Token;
-use crate::{Error, Feed, Result, Takes, connection, routes};
+use crate::{Error, Feed, Recorder, Result, Takes, connection, routes};
 use std::net::{Ipv4Addr, SocketAddr, TcpListener};
 use std::sync::Arc;
 use std::thread::{self, JoinHandle};
@@ -21,13 +21,15 @@ pub enum Content {
 }
 
 /// How the page is served.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct Options {
     /// Where it listens. Any address but a loopback one makes every page need a token; port 0 is one of the system's
     /// choice.
     pub listen: SocketAddr,
     /// Whether pages of this machine need a token too, as where several people share it.
     pub token: bool,
+    /// What pages may record live streams with.
+    pub recorder: Option<Recorder>,
 }
 
 impl Default for Options {
@@ -36,6 +38,7 @@ impl Default for Options {
         Self {
             listen: SocketAddr::from((Ipv4Addr::LOCALHOST, 9780)),
             token: false,
+            recorder: None,
         }
     }
 }
@@ -63,10 +66,19 @@ impl Server {
         let needs_token = options.token || !address.ip().is_loopback();
         let token = needs_token.then(Token::new).transpose()?;
         let (stop, stopped) = watch::channel(false);
+        let (record, recorded) = match &options.recorder {
+            Some(recorder) => {
+                let (record, recorded) = watch::channel(recorder.record());
+                (Some(record), Some(recorded))
+            }
+            None => (None, None),
+        };
         let app = Arc::new(App {
             content,
             guard: Guard::new(address, token),
             counts: Arc::new(Counts::default()),
+            recorder: options.recorder.clone(),
+            recorded,
             stop: stopped.clone(),
         });
         let runtime = tokio::runtime::Builder::new_current_thread()
@@ -75,6 +87,9 @@ impl Server {
             .map_err(failed)?;
         let served = Arc::clone(&app);
         let thread = thread::spawn(move || {
+            if let (Some(recorder), Some(record)) = (served.recorder.clone(), record) {
+                runtime.spawn(recorder.watch(record));
+            }
             runtime.block_on(serve(listener, served, stopped));
             runtime.shutdown_timeout(GOODBYE);
         });

@@ -39,7 +39,7 @@ impl Browser {
         let options = Options::default();
         let elsewhere = Options {
             listen: SocketAddr::new(options.listen.ip(), 0),
-            ..options
+            ..Options::default()
         };
         let browser = match listen {
             Some(listen) => Self::live(

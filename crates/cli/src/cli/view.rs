@@ -2,6 +2,7 @@
 
 use clap::Args;
 use std::net::SocketAddr;
+use std::path::PathBuf;
 
 /// Show live streams or takes in a browser.
 #[derive(Debug, Args)]
@@ -12,6 +13,7 @@ Examples:
   posewire view take.mvnx other.mcap              takes and recordings, to play, scrub and compare
   posewire view \"synthetic:walk?people=4\" --open
   posewire view mxtp://0.0.0.0 --listen 0.0.0.0:9780   for tablets in the room too
+  posewire view mxtp://0.0.0.0 --record-dir takes      with a button to record
 
 The page is in this program, and is served to this machine alone unless --listen says otherwise; other
 machines then need the token in the address that is printed. Takes are loaded whole, and each page plays
@@ -24,6 +26,10 @@ pub(crate) struct View {
     /// Where to serve the page; 0.0.0.0:9780 lets every machine of the network see it that has the token.
     #[arg(long, value_name = "ADDR:PORT", default_value = ADDRESS)]
     pub(crate) listen: SocketAddr,
+
+    /// Let pages record what is live: begin, end, name, list and fetch takes in this folder.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) record_dir: Option<PathBuf>,
 
     /// Ask pages of this machine for the token too, as where several people share it.
     #[arg(long)]

@@ -87,6 +87,7 @@ fn with_a_token_nothing_is_told_without_it() {
     let stage = Stage::with(&Options {
         listen: ([127, 0, 0, 1], 0).into(),
         token: true,
+        ..Options::default()
     });
     let at = stage.address();
     let url = stage.server.url(at.ip());

@@ -7,4 +7,5 @@ mod guarded;
 mod harness;
 mod limits;
 mod live;
+mod recorder;
 mod takes;

@@ -7,10 +7,12 @@ use crate::command::End;
 use crate::context::{self, Teller, say};
 use crate::error::Usage;
 use posewire::endpoint::Endpoint;
+use posewire::sink::TakesSink;
 use posewire::source::PlaybackOptions;
 use posewire::stop::Stop;
-use posewire::{Session, Source};
-use posewire_viewer::Options;
+use posewire::{Session, Sink, Source};
+use posewire_viewer::{Options, Recorder};
+use std::path::Path;
 use std::time::Duration;
 
 pub(super) fn run(arguments: &View) -> anyhow::Result<End> {
@@ -26,8 +28,15 @@ pub(super) fn run(arguments: &View) -> anyhow::Result<End> {
 }
 
 fn show_takes(endpoints: &[Endpoint], arguments: &View, stop: &Stop) -> anyhow::Result<End> {
+    if arguments.record_dir.is_some() {
+        return Err(Usage {
+            problem: "--record-dir is for live streams, found takes".to_owned(),
+            help: "leave --record-dir out".to_owned(),
+        }
+        .into());
+    }
     let takes = takes::load(endpoints, stop)?;
-    let browser = Browser::takes(takes, &options(arguments))?;
+    let browser = Browser::takes(takes, &options(arguments, None))?;
     announce(&browser, endpoints, arguments);
     while !stop.wait(Duration::from_hours(1)) {}
     Ok(End::Done)
@@ -38,18 +47,41 @@ fn show_live(endpoints: &[Endpoint], arguments: &View, stop: &Stop) -> anyhow::R
     let sources = endpoints.iter().map(|endpoint| Source::open(endpoint, &playback));
     let sources = sources.collect::<posewire::Result<Vec<_>>>()?;
     let endpoints: Vec<_> = sources.iter().map(|source| source.endpoint().clone()).collect();
-    let browser = Browser::live(&options(arguments), &endpoints)?;
+    let recording = arguments
+        .record_dir
+        .as_deref()
+        .map(|folder| recording(folder, &endpoints));
+    let recording = recording.transpose()?;
+    let recorder = recording.as_ref().map(|(_, recorder)| recorder.clone());
+    let browser = Browser::live(&options(arguments, recorder), &endpoints)?;
     announce(&browser, &endpoints, arguments);
     let teller = Teller::default();
-    let session = Session::start(sources, vec![browser.sink(), Box::new(teller.clone())], stop.clone());
-    let outcome = session.wait()?;
-    Ok(End::with_lost(outcome.dropped + teller.lost_here()))
+    let mut sinks: Vec<Box<dyn Sink>> = vec![browser.sink(), Box::new(teller.clone())];
+    let takes = recording.as_ref().map(|(sink, _)| sink.takes());
+    sinks.extend(recording.map(|(sink, _)| Box::new(sink) as Box<dyn Sink>));
+    let outcome = Session::start(sources, sinks, stop.clone()).wait()?;
+    let unwritten = takes.map_or(0, |takes| takes.progress().lost);
+    Ok(End::with_lost(outcome.dropped + teller.lost_here() + unwritten))
 }
 
-fn options(arguments: &View) -> Options {
+/// What writes the takes that pages begin and end.
+fn recording(folder: &Path, endpoints: &[Endpoint]) -> Result<(TakesSink, Recorder), Usage> {
+    if !folder.is_dir() {
+        return Err(Usage {
+            problem: format!("expected a folder for the takes, found {}", folder.display()),
+            help: "make the folder first, or name one that is there".to_owned(),
+        });
+    }
+    let sink = TakesSink::new(folder, endpoints, None);
+    let recorder = Recorder::new(sink.takes(), folder);
+    Ok((sink, recorder))
+}
+
+fn options(arguments: &View, recorder: Option<Recorder>) -> Options {
     Options {
         listen: arguments.listen,
         token: arguments.token,
+        recorder,
     }
 }
 
