@@ -12,7 +12,7 @@ import { Disks } from './batch/disks';
 import { Limbs } from './batch/limbs';
 import { Lines } from './batch/lines';
 
-/** Everything that is drawn anew with each sample: one draw call for each of these, however many performers there are. */
+/** Everything that is drawn anew with each sample: one draw call for each, however many performers there are. */
 export class Brush {
   /** For performers who fill the picture, where there is the time. */
   readonly close = new Limbs({ sides: 32, capRings: 8, shaftRings: 7 }, cloth());

@@ -20,7 +20,7 @@ export const QUALITY: readonly QualityStep[] = [
 /** The step that a machine without a graphics card begins with. */
 export const SLOW_START = 3;
 
-/** For a picture that has time: when nothing moves, and for screenshots. More pixels than the screen has smooth edges. */
+/** For a picture that has time: when nothing moves, and screenshots. More pixels than the screen has smooth edges. */
 export const STILL: QualityStep = { pixelRatio: 2, shadows: 2048 };
 
 /**

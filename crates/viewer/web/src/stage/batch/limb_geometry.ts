@@ -11,7 +11,8 @@ export interface Fineness {
 
 /**
  * The surface that every limb is an instance of. Its vertices are parameters, which the shader makes a surface of:
- * `position` is (how far along, sine of the cap's latitude, cosine of it), `normal` the cosine and sine of the angle around.
+ * `position` is (how far along, sine of the cap's latitude, cosine of it), `normal` the cosine and sine of the angle
+ * around.
  */
 export function limbGeometry({ sides, capRings, shaftRings }: Fineness): InstancedBufferGeometry {
   const rings = [...cap(capRings, -1), ...shaft(shaftRings), ...cap(capRings, 1)];

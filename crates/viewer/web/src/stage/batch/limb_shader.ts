@@ -45,11 +45,13 @@ vec3 limbPoint = vec3(
 );
 vec3 acrossTangent = vec3(0.0, -radii.x * around.y, radii.y * around.x);
 bool onCap = abs(position.y) > 0.0001;
+vec2 taper = limbSections.zw - limbSections.xy + limbShape.x * slope;
 vec3 alongTangent = onCap
   ? vec3(reach * position.z, -ring * position.y)
-  : vec3(limbPlace.w, (limbSections.zw - limbSections.xy + limbShape.x * slope) * around + vec2(0.0, limbShape.y * slope));
+  : vec3(limbPlace.w, taper * around + vec2(0.0, limbShape.y * slope));
 // Where shaft and cap meet, the shaft's slope is only half of the truth.
-if (!onCap && (along < 0.001 || along > 0.999)) alongTangent = mix(alongTangent, vec3(max(limbPlace.w, 0.001), 0.0, 0.0), 0.5);
+bool onSeam = !onCap && (along < 0.001 || along > 0.999);
+if (onSeam) alongTangent = mix(alongTangent, vec3(max(limbPlace.w, 0.001), 0.0, 0.0), 0.5);
 vec3 limbNormal = turnedBy(limbTurn, normalize(cross(acrossTangent, alongTangent)));
 limbPoint = limbPlace.xyz + turnedBy(limbTurn, limbPoint);
 `;

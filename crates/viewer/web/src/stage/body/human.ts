@@ -102,7 +102,8 @@ function vertebrae(body: Body, segment: number, next: number, last: boolean): Pa
   const high = profile(body.way(pelvis, next).z / total);
   return part(segment, body.at(0, 0, 0), body.way(segment, next), {
     start: body.section(...low),
-    end: body.section(...high),
+    // A little less than where the next begins, so that the two surfaces never lie in each other.
+    end: body.section(high[0] - 0.002, high[1] - 0.002),
     caps: body.caps(0.045, 0.05),
     tone: 'suit',
   });
@@ -170,11 +171,11 @@ function head(body: Body): Part[] {
       bulge: 0.008 * size,
       tone: 'skin',
     }),
-    part(skull, at(0.05, -0.056, 0.114), at(0.05, 0.056, 0.114), {
+    part(skull, at(0.041, -0.056, 0.114), at(0.041, 0.056, 0.114), {
       start: [0.019 * size, 0.03 * size],
       caps: [0.016 * size, 0.016 * size],
       bulge: 0.002 * size,
-      bow: 0.034 * size,
+      bow: 0.043 * size,
       broad: UP,
       tone: 'visor',
     }),

@@ -13,7 +13,7 @@ import {
 import { displayed } from './displayed';
 import type { Look } from './theme';
 
-/** The ground at z = 0: lines in metres that fade out with the distance, shadows, and the red triangle that marks +X. */
+/** The ground at z = 0: lines in metres that fade out in the distance, shadows, the red triangle that marks +X. */
 export class Floor {
   private readonly uniforms = {
     centre: { value: new Vector2() },
