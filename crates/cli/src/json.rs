@@ -1,4 +1,5 @@
-//! The JSON that verbs print: one object a line. The field names are an interface, described in docs/json.md.
+//! The JSON that verbs print: one object a line. The field names are an interface, described in docs/json.md. Statistics
+//! have theirs from [`posewire::json`].
 
 mod capture;
 mod doctor;
@@ -6,8 +7,6 @@ mod faults;
 mod frame;
 mod recording;
 mod replay;
-mod server;
-mod statistics;
 mod stream;
 mod subject;
 
@@ -16,17 +15,13 @@ pub(crate) use doctor::{DoctorRecord, FindingRecord};
 pub(crate) use frame::{FrameRecord, marker_name};
 pub(crate) use recording::{RecordingFileRecord, RecordingRecord};
 pub(crate) use replay::ReplayRecord;
-pub(crate) use server::ServerRecord;
-pub(crate) use statistics::{ReceiverRecord, statistics};
 pub(crate) use stream::StreamRecord;
 pub(crate) use subject::SubjectRecord;
 
 use posewire::Error;
-use posewire::histogram::Summary;
 use posewire_motion::{DQuat, DVec3};
 use serde::{Serialize, Serializer};
 use std::io::Write;
-use std::time::Duration;
 
 /// What a record says, and which source of a capture it is of.
 #[derive(Serialize)]
@@ -67,30 +62,6 @@ impl serde_json::ser::Formatter for Printable {
         }
         out.write_all(rest.as_bytes())
     }
-}
-
-/// Milliseconds.
-#[derive(Serialize)]
-struct Spread {
-    p50: f64,
-    p99: f64,
-    max: f64,
-}
-
-impl From<Summary> for Spread {
-    fn from(summary: Summary) -> Self {
-        let milliseconds = |duration: Duration| rounded(duration.as_secs_f64() * 1000.0);
-        Self {
-            p50: milliseconds(summary.p50),
-            p99: milliseconds(summary.p99),
-            max: milliseconds(summary.max),
-        }
-    }
-}
-
-/// To a thousandth: what is measured is not known better.
-fn rounded(value: f64) -> f64 {
-    (value * 1000.0).round() / 1000.0
 }
 
 /// `[x, y, z]`

@@ -40,6 +40,7 @@ pub mod faults;
 pub mod file;
 pub mod histogram;
 mod item;
+pub mod json;
 pub mod net;
 pub mod pacer;
 pub mod queue;

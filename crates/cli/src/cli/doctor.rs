@@ -27,7 +27,7 @@ pub(crate) struct Doctor {
     #[arg(long, value_name = "SECONDS", default_value = "5", value_parser = seconds, allow_negative_numbers = true)]
     pub(crate) duration: Duration,
 
-    /// Of a capture with several sources: this one, by its number or a part of its name.
+    /// Of a capture with several sources: this one alone, by its number or a part of its name.
     #[arg(long, value_name = "SOURCE")]
     pub(crate) only: Option<String>,
 

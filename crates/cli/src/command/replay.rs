@@ -62,7 +62,11 @@ fn options(arguments: &Replay, faults: Option<FaultPlan>) -> ReplayOptions {
 }
 
 fn announce(arguments: &Replay, replay: &replay::Replay) {
-    say(format_args!("replaying {}", arguments.file.display()));
+    let more = match replay.survey().files.len() {
+        0 | 1 => String::new(),
+        files => format!(" and {} after it", plural(files as u64 - 1, "file")),
+    };
+    say(format_args!("replaying {}{more}", arguments.file.display()));
     replay.sources().for_each(announce_source);
     let progress = replay.progress();
     let progress = progress.lock().unwrap_or_else(PoisonError::into_inner);

@@ -1,7 +1,7 @@
 //! What a capture of packets holds.
 
-use super::rounded;
 use posewire::capture::{CapturedSource, Protocol, Survey};
+use posewire::json::rounded;
 use posewire_motion::Stamp;
 use serde::Serialize;
 use std::path::Path;

@@ -1,8 +1,8 @@
 //! What the doctor found.
 
-use super::rounded;
 use posewire::doctor::{Finding, Listened, Severity};
 use posewire::endpoint::Endpoint;
+use posewire::json::rounded;
 use serde::Serialize;
 
 /// One finding.

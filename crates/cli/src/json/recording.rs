@@ -1,6 +1,6 @@
 //! How a recording is going, and what one holds.
 
-use super::rounded;
+use posewire::json::rounded;
 use posewire::recording::{SenderSurvey, SourceSurvey, SubjectSurvey, Survey};
 use posewire::sink::{RecordProgress, RecordedSource, RecordedSubject};
 use posewire_motion::Stamp;

@@ -1,9 +1,9 @@
 //! How a replay went.
 
-use super::Spread;
 use super::faults::FaultsRecord;
 use super::stream::TargetRecord;
 use posewire::faults::FaultPlan;
+use posewire::json::Spread;
 use posewire::replay::Replayed;
 use serde::Serialize;
 

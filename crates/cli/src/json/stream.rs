@@ -1,8 +1,8 @@
 //! How a stream went that we sent.
 
-use super::Spread;
 use super::faults::FaultsRecord;
 use posewire::faults::FaultPlan;
+use posewire::json::Spread;
 use posewire::sink::{ClientProgress, ClientState, LeftOut, Progress, TargetProgress};
 use serde::Serialize;
 

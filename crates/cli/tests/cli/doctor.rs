@@ -107,8 +107,8 @@ fn a_taken_port_is_a_finding_and_no_error() {
     }
 }
 
-/// A capture of a character that is sent from two addresses, without a pose.
-fn write_capture(path: &Path) {
+/// A capture of a character without a pose that is sent from two addresses, to so many others in turn.
+fn write_capture(path: &Path, receivers: u32) {
     let mut writer = PcapWriter::create(path, false).unwrap();
     for number in 0..600 {
         let header = Header::rev_j(MessageType::TIME_CODE, number / 2, number * 2);
@@ -118,7 +118,7 @@ fn write_capture(path: &Path) {
         let datagram = Datagram {
             wire: Wire::MxtpUdp,
             from: ([10, 0, 0, 1 + (number % 2) as u8], 50_000).into(),
-            to: ([10, 0, 0, 9], 9763).into(),
+            to: ([10, 0, 0, 9 + (number / 2 % receivers) as u8], 9763).into(),
             received: Stamp(1_700_000_000_000_000_000 + i64::from(number) * 2_000_000),
             bytes: bytes.into(),
         };
@@ -130,7 +130,7 @@ fn write_capture(path: &Path) {
 #[test]
 fn a_capture_is_examined_as_a_stream_is() {
     let folder = tempfile::tempdir().unwrap();
-    write_capture(&folder.path().join("take.pcapng"));
+    write_capture(&folder.path().join("take.pcapng"), 1);
     let ended = posewire(folder.path(), &["doctor", "take.pcapng", "--json"], b"");
     assert_eq!(ended.code, Some(1), "{}", ended.err);
     let names: Vec<_> = objects(&ended.out, "finding")
@@ -139,6 +139,30 @@ fn a_capture_is_examined_as_a_stream_is() {
         .collect();
     assert_eq!(names[..2], ["two-senders", "no-pose"], "{}", ended.out);
     assert_eq!(objects(&ended.out, "doctor")[0]["datagrams"], 600);
+}
+
+#[test]
+fn each_source_of_a_capture_is_examined_by_itself() {
+    let folder = tempfile::tempdir().unwrap();
+    write_capture(&folder.path().join("take.pcapng"), 2);
+    let places = |arguments: &[&str]| {
+        let ended = posewire(
+            folder.path(),
+            &[&["doctor", "take.pcapng", "--json"], arguments].concat(),
+            b"",
+        );
+        let findings = objects(&ended.out, "finding").into_iter();
+        let senders = findings.filter(|finding| finding["name"] == "two-senders");
+        senders
+            .map(|finding| finding["place"].as_str().unwrap().to_owned())
+            .collect::<Vec<_>>()
+    };
+    let all = [
+        "mxtp://10.0.0.9:9763, character 0",
+        "mxtp://10.0.0.10:9763, character 0",
+    ];
+    assert_eq!(places(&[]), all);
+    assert_eq!(places(&["--only", "1"]), ["character 0"]);
 }
 
 #[test]

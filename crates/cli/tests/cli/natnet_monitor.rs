@@ -83,7 +83,7 @@ fn json_has_the_server_its_frames_and_who_is_tracked() {
 
     let statistics = objects(&ended.out, "statistics");
     let frames = last(&statistics, &[("type", "frame".into()), ("ended", true.into())]);
-    assert_documented(frames, "statistics", &["character", "samples"]);
+    assert_documented(frames, "statistics", &["character", "samples", "transit_ms"]);
     assert!(frames["received"].as_u64().is_some_and(|count| count >= 30), "{frames}");
 }
 

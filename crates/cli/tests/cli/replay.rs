@@ -2,7 +2,8 @@
 
 use crate::program::{assert_documented, objects, posewire};
 use posewire::capture::{Capture, CaptureOptions, PcapWriter};
-use posewire::{Datagram, Wire};
+use posewire::recording::{Writer, WriterOptions};
+use posewire::{Datagram, SourceId, Wire};
 use posewire_motion::Stamp;
 use posewire_mxtp::body::{Body, TimeCode};
 use posewire_mxtp::{Header, MessageType};
@@ -10,6 +11,7 @@ use serde_json::Value;
 use std::collections::BTreeSet;
 use std::net::UdpSocket;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// A capture of timecodes of one sample each, in turn to so many addresses.
@@ -17,23 +19,45 @@ fn write_capture(path: &Path, count: u32, receivers: u32) -> Vec<Vec<u8>> {
     let mut writer = PcapWriter::create(path, false).unwrap();
     let mut written = Vec::new();
     for number in 0..count {
-        let header = Header::rev_j(MessageType::TIME_CODE, number, number * 4);
-        let body = Body::TimeCode(TimeCode::from_millis_of_day(number * 4));
-        let mut bytes = Vec::new();
-        let datagram = posewire_mxtp::Datagram::new(header, body).unwrap();
-        datagram.encode(&mut bytes);
-        written.push(bytes.clone());
-        let datagram = Datagram {
-            wire: Wire::MxtpUdp,
-            from: ([10, 0, 0, 1], 50_000).into(),
-            to: ([10, 0, 0, 2 + (number % receivers) as u8], 9763).into(),
-            received: Stamp(1_700_000_000_000_000_000 + i64::from(number) * 4_000_000),
-            bytes: bytes.into(),
-        };
+        let datagram = timecode(number, receivers);
         writer.write(&datagram).unwrap();
+        written.push(datagram.bytes.into_vec());
     }
     writer.finish().unwrap();
     written
+}
+
+/// Four milliseconds after the one before.
+fn timecode(number: u32, receivers: u32) -> Datagram {
+    let header = Header::rev_j(MessageType::TIME_CODE, number, number * 4);
+    let body = Body::TimeCode(TimeCode::from_millis_of_day(number * 4));
+    let mut bytes = Vec::new();
+    let datagram = posewire_mxtp::Datagram::new(header, body).unwrap();
+    datagram.encode(&mut bytes);
+    Datagram {
+        wire: Wire::MxtpUdp,
+        from: ([10, 0, 0, 1], 50_000).into(),
+        to: ([10, 0, 0, 2 + (number % receivers) as u8], 9763).into(),
+        received: Stamp(1_700_000_000_000_000_000 + i64::from(number) * 4_000_000),
+        bytes: bytes.into(),
+    }
+}
+
+/// A recording of so many files, with ten timecodes each.
+fn write_recording(path: &Path, files: u32) {
+    let options = WriterOptions {
+        split: Some(1),
+        ..WriterOptions::default()
+    };
+    let mut writer = Writer::create(path, &["mxtp://0.0.0.0:9763".to_owned()], options).unwrap();
+    for number in 0..files * 10 {
+        if number > 0 && number % 10 == 0 {
+            writer.flush().unwrap();
+        }
+        let datagram = Arc::new(timecode(number, 1));
+        writer.datagram(SourceId(0), &datagram).unwrap();
+    }
+    writer.finish().unwrap();
 }
 
 #[test]
@@ -96,6 +120,49 @@ fn a_capture_is_monitored_as_if_it_came_now() {
     let last = objects(&ended.out, "statistics").pop().unwrap();
     assert_eq!((&last["received"], &last["missing"]), (&100.into(), &0.into()));
     assert_eq!(last["rate_hz"], 250.0);
+}
+
+#[test]
+fn a_split_recording_is_used_as_one() {
+    let folder = tempfile::tempdir().unwrap();
+    write_recording(&folder.path().join("take.mcap"), 3);
+    let verbs = [
+        &[
+            "replay",
+            "take.mcap",
+            "--to",
+            "mxtp://127.0.0.1:9",
+            "--speed",
+            "9",
+            "--json",
+        ][..],
+        &["monitor", "take.mcap", "--speed", "9", "--json"],
+        &["convert", "take.mcap", "all.pcapng", "--json"],
+    ];
+    let [replayed, monitored, converted] = verbs.map(|arguments| posewire(folder.path(), arguments, b""));
+    assert_eq!(objects(&replayed.out, "replay")[0]["datagrams"], 30, "{}", replayed.err);
+    let said = "replaying take.mcap and 2 files after it";
+    assert!(replayed.err.starts_with(said), "{}", replayed.err);
+    let last = objects(&monitored.out, "statistics").pop().unwrap();
+    assert_eq!((&last["received"], &last["missing"]), (&30.into(), &0.into()));
+    assert_eq!(
+        objects(&converted.out, "capture")[0]["datagrams"],
+        30,
+        "{}",
+        converted.err
+    );
+
+    std::fs::remove_file(folder.path().join("all.pcapng")).unwrap();
+    std::fs::remove_file(folder.path().join("take-002.mcap")).unwrap();
+    for arguments in verbs {
+        let ended = posewire(folder.path(), arguments, b"");
+        assert_eq!(ended.code, Some(1), "{}", ended.err);
+        let problem = "error: take.mcap: part 2 of the recording is missing, expected before take-003.mcap";
+        assert!(ended.err.contains(problem), "{}", ended.err);
+    }
+    let alone = ["monitor", "take-003.mcap", "--speed", "9", "--json"];
+    let ended = posewire(folder.path(), &alone, b"");
+    assert_eq!(objects(&ended.out, "statistics").pop().unwrap()["received"], 10);
 }
 
 #[test]

@@ -270,6 +270,14 @@ fn what_is_far_from_the_session_before_is_none_of_it() {
 }
 
 #[test]
+fn how_far_the_session_before_goes_on_is_counted_in_strides() {
+    let (sequence, now) = seen((0..1000).chain(0..3).map(|n| 4 * n));
+    let on_by = |counts: u32| sequence.clone().observe(4 * 999 + counts, now);
+    assert_eq!(on_by(4 * 17 - 1), Observation::Straggler);
+    assert_eq!(on_by(4 * 17), Observation::Reset(ResetKind::Jump));
+}
+
+#[test]
 fn stragglers_come_for_half_a_second() {
     let (mut sequence, now) = seen((0..998).chain([999]).chain([0]));
     let at_last = now.after(SILENCE);
@@ -350,6 +358,20 @@ fn a_stride_is_settled_by_eight_steps_of_which_six_agree_or_by_sixty_four() {
     assert_eq!(settles_after(&[1, 1, 1, 2, 1, 1, 1, 2]), 8);
     assert_eq!(settles_after(&[1, 1, 1, 2, 1, 2, 1, 2]), 64);
     assert_eq!(settles_after(&[1, 2]), 64);
+}
+
+#[test]
+fn a_late_sample_changes_a_stride_that_is_not_settled() {
+    let (mut sequence, _) = seen([0, 4, 8]);
+    observe(&mut sequence, [6]);
+    assert_eq!((sequence.stride(), sequence.tally()), (Some(2), tally(1, 0, 1, 0)));
+}
+
+#[test]
+fn a_late_sample_leaves_what_was_missing_long_before() {
+    let (mut sequence, _) = seen((0..50).chain(51..400));
+    observe(&mut sequence, [401, 400]);
+    assert_eq!(sequence.tally(), tally(1, 0, 1, 0));
 }
 
 #[test]

@@ -107,6 +107,15 @@ fn samples_that_lack_a_type_and_samples_that_are_gone_are_told_apart() {
 }
 
 #[test]
+fn samples_are_whole_when_none_is_partial_and_none_gone() {
+    let whole = |partial, gone| sample_counts(10, partial, gone).are_whole();
+    assert_eq!(
+        [whole(0, 0), whole(1, 0), whole(0, 1), whole(2, 3)],
+        [true, false, false, false]
+    );
+}
+
+#[test]
 fn a_sample_is_not_partial_when_what_it_lacked_comes_after_all() {
     let (mut receiver, mut sender) = (Receiver::new(), Sender::new("02,20"));
     receiver.feed_samples(&mut sender, 0..20);

@@ -72,6 +72,11 @@ impl Examination {
         }
     }
 
+    /// What is examined.
+    pub fn endpoint(&self) -> &Endpoint {
+        &self.endpoint
+    }
+
     /// Takes one item of the source.
     pub fn take(&mut self, item: &Item) {
         match item {

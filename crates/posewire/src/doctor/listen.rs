@@ -1,17 +1,16 @@
 //! A source, listened to for a while.
 
+use super::examiner::Examiner;
 use super::finding::sort;
 use super::neighbours::{OtherPorts, OtherTransport};
 use super::silence::{self, Circumstances};
 use super::system::{Traffic, addresses, taken};
-use super::{Check, Examination, Finding};
+use super::{Check, Finding};
 use crate::endpoint::Endpoint;
-use crate::queue::Policy;
 use crate::source::PlaybackOptions;
 use crate::stop::Stop;
-use crate::{Error, Item, Result, Session, Sink, Source, SourceId, Wants};
+use crate::{Error, Result, Session, Source};
 use std::io::ErrorKind;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// What was found by listening.
@@ -39,27 +38,28 @@ pub struct Listener {
 
 #[derive(Debug)]
 enum Opened {
-    Source(Box<Source>, Option<OtherTransport>),
+    Live(Box<Source>, Option<OtherTransport>),
+    /// The sources of a capture.
+    Captured(Vec<Source>),
     /// Another program has the port.
     Taken(Finding),
 }
 
 impl Listener {
-    /// Opens what an endpoint names, as a source does. A port that another program has is a finding and no error. The options
+    /// Opens what an endpoint names, as sources do. A port that another program has is a finding and no error. The options
     /// choose what of a capture is read; their speed does not matter.
     ///
     /// # Errors
-    /// All others of [`Source::open`].
+    /// All others of [`Source::open_all`].
     pub fn open(endpoint: &Endpoint, options: &PlaybackOptions) -> Result<Self> {
-        let options = PlaybackOptions {
-            speed: AT_ONCE,
-            ..options.clone()
-        };
-        match Source::open(endpoint, &options) {
+        if matches!(endpoint, Endpoint::Capture { .. }) {
+            return Self::open_capture(endpoint, options);
+        }
+        match Source::open(endpoint, options) {
             Ok(source) => {
-                let endpoint = captured(&source).unwrap_or_else(|| source.endpoint().clone());
-                let other = OtherTransport::open(&endpoint).filter(|_| source.is_live());
-                let opened = Opened::Source(Box::new(source), other);
+                let endpoint = source.endpoint().clone();
+                let other = OtherTransport::open(&endpoint);
+                let opened = Opened::Live(Box::new(source), other);
                 Ok(Self { endpoint, opened })
             }
             Err(error) if is_taken(&error) => Ok(Self {
@@ -70,7 +70,18 @@ impl Listener {
         }
     }
 
-    /// Where it is open, with the port that the system chose if it was 0; of a capture, what was captured.
+    fn open_capture(endpoint: &Endpoint, options: &PlaybackOptions) -> Result<Self> {
+        let options = PlaybackOptions {
+            speed: AT_ONCE,
+            ..options.clone()
+        };
+        Ok(Self {
+            endpoint: endpoint.clone(),
+            opened: Opened::Captured(Source::open_all(endpoint, &options)?),
+        })
+    }
+
+    /// Where it is open, with the port that the system chose if it was 0.
     pub fn endpoint(&self) -> &Endpoint {
         &self.endpoint
     }
@@ -82,7 +93,8 @@ impl Listener {
     /// What ends the source.
     pub fn listen(self, duration: Duration, stop: &Stop) -> Result<Listened> {
         match self.opened {
-            Opened::Source(source, other) => Listening::new(self.endpoint, &source).run(*source, other, duration, stop),
+            Opened::Live(source, other) => Listening::begin(&self.endpoint).live(*source, other, duration, stop),
+            Opened::Captured(sources) => read(sources, stop),
             Opened::Taken(finding) => Ok(Listened {
                 findings: vec![finding],
                 ..Listened::default()
@@ -96,42 +108,59 @@ fn is_taken(error: &Error) -> bool {
     matches!(error, Error::Socket { kind, .. } if *kind == taken)
 }
 
-/// The endpoint that a capture was taken at.
-fn captured(source: &Source) -> Option<Endpoint> {
-    source.captured()?.name.parse().ok()
+/// Reads a capture to its end.
+fn read(sources: Vec<Source>, stop: &Stop) -> Result<Listened> {
+    let begun = Instant::now();
+    let endpoints: Vec<_> = sources.iter().map(captured).collect();
+    let examiner = Examiner::of(&endpoints);
+    Session::start(sources, vec![Box::new(examiner.clone())], stop.clone()).wait()?;
+    Ok(Listened::new(&examiner, examiner.findings(), begun.elapsed()))
 }
 
-/// A listener at work.
-struct Listening {
-    endpoint: Endpoint,
-    examiner: Examiner,
-    is_live: bool,
-    begun: Instant,
+/// The endpoint that a source of a capture was taken at.
+fn captured(source: &Source) -> Endpoint {
+    let name = source.captured().and_then(|captured| captured.name.parse().ok());
+    name.unwrap_or_else(|| source.endpoint().clone())
 }
 
-impl Listening {
-    fn new(endpoint: Endpoint, source: &Source) -> Self {
+impl Listened {
+    fn new(examiner: &Examiner, mut findings: Vec<Finding>, elapsed: Duration) -> Self {
+        sort(&mut findings);
         Self {
-            examiner: Examiner(Arc::new(Mutex::new(Examination::new(&endpoint)))),
+            findings,
+            elapsed,
+            datagrams: examiner.datagrams(),
+            lost_here: examiner.lost_here(),
+        }
+    }
+}
+
+/// A live endpoint that is listened to.
+struct Listening<'a> {
+    endpoint: &'a Endpoint,
+    examiner: Examiner,
+    begun: Instant,
+    before: Traffic,
+}
+
+impl<'a> Listening<'a> {
+    fn begin(endpoint: &'a Endpoint) -> Self {
+        Self {
+            examiner: Examiner::of([endpoint]),
             endpoint,
-            is_live: source.is_live(),
             begun: Instant::now(),
+            before: Traffic::now(),
         }
     }
 
-    fn run(self, source: Source, other: Option<OtherTransport>, duration: Duration, stop: &Stop) -> Result<Listened> {
-        let before = Traffic::now();
-        let mut other_ports = None;
+    fn live(self, source: Source, other: Option<OtherTransport>, duration: Duration, stop: &Stop) -> Result<Listened> {
         let session = Session::start([source], vec![Box::new(self.examiner.clone())], stop.clone());
-        if self.is_live {
-            if !stop.wait(duration.min(QUIET)) && !self.examiner.lock().has_heard() {
-                other_ports = OtherPorts::open(&self.endpoint);
-            }
-            stop.wait(duration.saturating_sub(QUIET));
-            stop.stop();
-        }
+        let is_quiet = !stop.wait(duration.min(QUIET)) && !self.examiner.has_heard();
+        let other_ports = is_quiet.then(|| OtherPorts::open(self.endpoint)).flatten();
+        stop.wait(duration.saturating_sub(QUIET));
+        stop.stop();
         session.wait()?;
-        let traffic = Traffic::now().since(&before);
+        let traffic = Traffic::now().since(&self.before);
         Ok(self.result(&Circumstances {
             to_nobody: traffic.to_nobody,
             packets: traffic.packets,
@@ -142,46 +171,15 @@ impl Listening {
     }
 
     fn result(&self, around: &Circumstances) -> Listened {
-        let (elapsed, examination) = (self.begun.elapsed(), self.examiner.lock());
-        let mut findings = examination.findings();
+        let elapsed = self.begun.elapsed();
+        let mut findings = self.examiner.findings();
         let is_mxtp = matches!(self.endpoint, Endpoint::MxtpUdp(_) | Endpoint::MxtpTcp(_));
-        if self.is_live && is_mxtp && !examination.has_understood() {
-            let is_silent = !examination.has_heard();
-            let of_silence = silence::findings(&self.endpoint, elapsed, around).into_iter();
+        if is_mxtp && !self.examiner.has_understood() {
+            let is_silent = !self.examiner.has_heard();
+            let of_silence = silence::findings(self.endpoint, elapsed, around).into_iter();
             findings.extend(of_silence.filter(|finding| is_silent || finding.check != Check::NothingArrives));
         }
-        sort(&mut findings);
-        Listened {
-            findings,
-            elapsed,
-            datagrams: examination.datagrams(),
-            lost_here: examination.lost_here(),
-        }
-    }
-}
-
-/// Feeds an examination.
-#[derive(Clone, Debug)]
-struct Examiner(Arc<Mutex<Examination>>);
-
-impl Examiner {
-    fn lock(&self) -> MutexGuard<'_, Examination> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
-impl Sink for Examiner {
-    fn queue(&self) -> (Policy, usize) {
-        (Policy::Lossless, QUEUED_ITEMS)
-    }
-
-    fn wants(&self) -> Wants {
-        Wants::ALL
-    }
-
-    fn accept(&mut self, _: SourceId, item: &Item) -> Result<()> {
-        self.lock().take(item);
-        Ok(())
+        Listened::new(&self.examiner, findings, elapsed)
     }
 }
 
@@ -189,5 +187,3 @@ impl Sink for Examiner {
 const AT_ONCE: f64 = 1e6;
 /// After so long a silence other ports are listened to.
 const QUIET: Duration = Duration::from_secs(1);
-/// A second or so of many people.
-const QUEUED_ITEMS: usize = 65_536;

@@ -21,6 +21,7 @@ mod check;
 mod clocks;
 mod contents;
 mod examination;
+mod examiner;
 mod figures;
 mod finding;
 mod landmarks;

@@ -53,27 +53,43 @@ impl Senders {
         heard.count += 1;
     }
 
+    /// One for all that the same senders send.
     pub(super) fn findings(&self) -> impl Iterator<Item = Finding> {
-        self.heard.iter().filter_map(|(what, senders)| {
+        let mut sent: BTreeMap<Vec<SocketAddr>, Vec<Numbering>> = BTreeMap::new();
+        for (what, senders) in &self.heard {
             let beside = beside_each_other(senders);
-            let (Some(one), Some(other)) = (beside.first(), beside.get(1)) else {
-                return None;
-            };
-            let more = match beside.len() - 2 {
-                0 => String::new(),
-                more => format!(" and {more} more"),
-            };
-            let same = match what {
-                Numbering::Character(character) => format!("character {character}"),
-                Numbering::Frames => "frames to one group".to_owned(),
-            };
-            let what_is = format!("{one} and {other}{more} send {same} at the same time.");
-            let finding = Finding::new(Check::TwoSenders, what_is);
-            Some(match what {
-                Numbering::Character(character) => finding.at(format_args!("character {character}")),
-                Numbering::Frames => finding,
-            })
-        })
+            if beside.len() > 1 {
+                sent.entry(beside).or_default().push(*what);
+            }
+        }
+        sent.into_iter().map(|(senders, sent)| of_senders(&senders, &sent))
+    }
+}
+
+fn of_senders(senders: &[SocketAddr], sent: &[Numbering]) -> Finding {
+    let named: Vec<_> = senders.iter().take(NAMED).map(ToString::to_string).collect();
+    let more = match senders.len().saturating_sub(NAMED) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    let numbers = sent.iter().filter_map(|what| match what {
+        Numbering::Character(character) => Some(character.to_string()),
+        Numbering::Frames => None,
+    });
+    let numbers: Vec<_> = numbers.collect();
+    let s = if numbers.len() == 1 { "" } else { "s" };
+    let characters = format!("character{s} {}", numbers.join(", "));
+    let same = if numbers.is_empty() {
+        "frames to one group"
+    } else {
+        &characters
+    };
+    let what = format!("{}{more} send {same} at the same time.", named.join(" and "));
+    let finding = Finding::new(Check::TwoSenders, what);
+    if numbers.is_empty() {
+        finding
+    } else {
+        finding.at(characters)
     }
 }
 
@@ -101,6 +117,8 @@ fn beside_each_other(senders: &BTreeMap<SocketAddr, Heard>) -> Vec<SocketAddr> {
     senders.iter().filter(is_beside).map(|(address, _)| *address).collect()
 }
 
+/// How many are named.
+const NAMED: usize = 2;
 /// More senders than this are as bad.
 const MOST: usize = 64;
 
@@ -130,6 +148,24 @@ mod tests {
         assert_eq!(
             found,
             ["10.0.0.1:5000 and 10.0.0.2:5000 send character 0 at the same time."]
+        );
+    }
+
+    #[test]
+    fn two_senders_of_several_characters_are_one_finding() {
+        let sent = (0..12_usize).map(|at| {
+            (
+                ["10.0.0.1:5000", "10.0.0.2:5000"][at % 2],
+                (at / 2 % 3) as u8,
+                at as i64,
+            )
+        });
+        let found = found(&sent.collect::<Vec<_>>());
+        assert_eq!(found.len(), 1);
+        assert!(
+            found[0].ends_with("send characters 0, 1, 2 at the same time."),
+            "{}",
+            found[0]
         );
     }
 

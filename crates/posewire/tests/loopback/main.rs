@@ -11,5 +11,6 @@ mod natnet_sink;
 mod recording;
 mod reference;
 mod remote;
+mod transit;
 mod transports;
 mod walkers;

@@ -4,6 +4,7 @@ use super::board::QUEUED_ITEMS;
 use crate::context::say;
 use crate::plain::printable;
 use crate::{json, render};
+use posewire::json::{ReceiverRecord, ServerRecord};
 use posewire::queue::Policy;
 use posewire::stats::Statistics;
 use posewire::{Error, Item, Result, Sink, Source, SourceId};
@@ -82,11 +83,11 @@ impl Printer {
         match self.format {
             Format::Plain => write_plain(&mut self.out, statistics, self.names.heading(source))?,
             Format::Json { .. } => {
-                self.write(source, &json::ReceiverRecord::new(statistics))?;
-                if let Some(server) = json::ServerRecord::new(statistics) {
+                self.write(source, &ReceiverRecord::new(statistics))?;
+                if let Some(server) = ServerRecord::new(statistics) {
                     self.write(source, &server)?;
                 }
-                json::statistics(statistics).try_for_each(|object| self.write(source, &object))?;
+                posewire::json::statistics(statistics).try_for_each(|object| self.write(source, &object))?;
             }
         }
         self.flush()

@@ -111,7 +111,7 @@ impl MxtpSink {
     ///
     /// # Errors
     /// What keeps a target from being opened: an address that is not found, a port in use, a peer that refuses.
-    /// [`Error::NotATarget`] for an endpoint that is not MXTP.
+    /// [`Error::NotATarget`](crate::Error::NotATarget) for an endpoint that is not MXTP.
     pub fn open(targets: &[Endpoint], mut options: MxtpSinkOptions) -> Result<Self> {
         let targets = MxtpTargets::open(targets)?;
         let sink = Self {

@@ -5,7 +5,7 @@ use posewire_motion::DVec3;
 use std::f64::consts::TAU;
 
 /// Strides once round the circle, so that a lap ends as it began.
-pub(super) const STRIDES_PER_LAP: u32 = 11;
+pub(super) const STRIDES_PER_LAP: u32 = 8;
 
 /// How one person is built and walks. Lengths are in metres, times in seconds, angles in radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,7 +98,7 @@ impl Chance {
 
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 /// Between the middles of two circles: more than two of the largest radii and two arms' lengths.
-const APART: f64 = 6.0;
+const APART: f64 = 4.4;
 
 #[cfg(test)]
 mod tests {

@@ -1,14 +1,14 @@
 //! The server that a stream comes from.
 
 use super::{Spread, rounded};
-use posewire::stats::{Clock, Latencies, ModelCounts, ServerStatistics, Statistics, SubjectStatistics};
+use crate::stats::{Clock, Latencies, ModelCounts, ServerStatistics, Statistics, SubjectStatistics};
 use posewire_natnet::client::Mode;
 use serde::Serialize;
 use std::time::Duration;
 
 /// What a NatNet server says of itself, how far away it is, and how much of its subjects is tracked.
-#[derive(Serialize)]
-pub(crate) struct ServerRecord<'a> {
+#[derive(Debug, Serialize)]
+pub struct ServerRecord<'a> {
     kind: &'static str,
     name: &'a str,
     app_version: String,
@@ -30,7 +30,7 @@ pub(crate) struct ServerRecord<'a> {
     ended: bool,
 }
 
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 struct ModelRecord {
     marker_sets: usize,
     rigid_bodies: usize,
@@ -42,21 +42,21 @@ struct ModelRecord {
     unknown: usize,
 }
 
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 struct ClockRecord {
     offset_ns: i64,
     uncertainty_ms: f64,
     round_trip_ms: f64,
 }
 
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 struct LatencyRecord {
     camera_to_host: Option<Spread>,
     software: Option<Spread>,
     host_to_here: Option<Spread>,
 }
 
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 struct TrackingRecord<'a> {
     character: u32,
     name: &'a str,
@@ -67,7 +67,7 @@ struct TrackingRecord<'a> {
 
 impl<'a> ServerRecord<'a> {
     /// `None` for a stream without a server, and before anything came from it.
-    pub(crate) fn new(all: &'a Statistics) -> Option<Self> {
+    pub fn new(all: &'a Statistics) -> Option<Self> {
         let server: &ServerStatistics = all.server.as_deref()?;
         Some(Self {
             kind: "server",

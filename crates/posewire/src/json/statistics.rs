@@ -1,15 +1,15 @@
 //! How a stream is doing that we receive.
 
 use super::{Spread, rounded};
-use posewire::stats::{SampleCounts, Statistics, StreamStatistics, SubjectStatistics, Transit};
+use crate::stats::{SampleCounts, Statistics, StreamStatistics, SubjectStatistics, Transit};
 use posewire_motion::Subject;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// How a receiver is doing: what belongs to no character.
-#[derive(Serialize)]
-pub(crate) struct ReceiverRecord<'a> {
+#[derive(Debug, Serialize)]
+pub struct ReceiverRecord<'a> {
     kind: &'static str,
     datagrams: u64,
     bytes: u64,
@@ -23,7 +23,8 @@ pub(crate) struct ReceiverRecord<'a> {
 }
 
 impl<'a> ReceiverRecord<'a> {
-    pub(crate) fn new(all: &'a Statistics) -> Self {
+    /// What `all` says of it.
+    pub fn new(all: &'a Statistics) -> Self {
         Self {
             kind: "receiver",
             datagrams: all.datagrams,
@@ -40,8 +41,8 @@ impl<'a> ReceiverRecord<'a> {
 }
 
 /// How one datagram type of one character is doing.
-#[derive(Serialize)]
-pub(crate) struct StatisticsRecord<'a> {
+#[derive(Debug, Serialize)]
+pub struct StatisticsRecord<'a> {
     kind: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     character: Option<u32>,
@@ -71,7 +72,7 @@ pub(crate) struct StatisticsRecord<'a> {
 }
 
 /// What became of the samples of a character.
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 struct SamplesRecord {
     done: u64,
     partial: u64,
@@ -85,7 +86,7 @@ impl From<SampleCounts> for SamplesRecord {
 }
 
 /// How long the samples of a character were on their way.
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 struct TransitRecord {
     variation: Option<Spread>,
     latency: Option<Spread>,
@@ -103,7 +104,7 @@ impl From<Transit> for TransitRecord {
 }
 
 /// One record for each character and datagram type, and one for the frames of a server.
-pub(crate) fn statistics(all: &Statistics) -> impl Iterator<Item = StatisticsRecord<'_>> {
+pub fn statistics(all: &Statistics) -> impl Iterator<Item = StatisticsRecord<'_>> {
     let streams = all.streams();
     streams.map(|(subject, stream)| StatisticsRecord::new(all, subject, stream))
 }
