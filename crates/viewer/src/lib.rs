@@ -42,6 +42,7 @@ mod scene;
 mod series;
 mod server;
 mod sink;
+mod statistics;
 mod takes;
 mod token;
 mod wire;

@@ -5,7 +5,7 @@ use crate::app::App;
 use crate::feed::Seen;
 use crate::recorder::{RecorderRecord, RecorderState};
 use crate::series::Plot;
-use crate::wire;
+use crate::{statistics, wire};
 use serde::Serialize;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
@@ -19,6 +19,8 @@ pub(crate) struct LiveView {
     scene: Option<(u64, Instant)>,
     notices: u64,
     recorder: Option<(RecorderRecord, Instant)>,
+    statistics: Option<Instant>,
+    skipped: u64,
     ended: bool,
     series: Instant,
 }
@@ -32,6 +34,8 @@ impl LiveView {
             scene: None,
             notices: 0,
             recorder: None,
+            statistics: None,
+            skipped: 0,
             ended: false,
             series: Instant::now(),
         }
@@ -44,6 +48,10 @@ impl LiveView {
         words.extend(self.scene(feed, app, now));
         words.extend(self.notices(feed));
         words.extend(self.recorder(app, now));
+        if self.statistics.is_none_or(|told| now >= told + STATISTICS_EVERY) {
+            self.statistics = Some(now);
+            words.push(statistics::message(feed, app, self.skipped));
+        }
         if feed.has_ended() && !std::mem::replace(&mut self.ended, true) {
             words.push(r#"{"type":"ended"}"#.to_owned());
         }
@@ -57,9 +65,10 @@ impl LiveView {
         tick
     }
 
-    /// Counts ticks that were sent or skipped.
-    pub(crate) fn go_on(&mut self, ticks: u32) {
-        self.ticks = self.ticks.wrapping_add(ticks);
+    /// Goes on to the tick behind those that were skipped.
+    pub(crate) fn go_on(&mut self, skipped: u32) {
+        self.ticks = self.ticks.wrapping_add(1).wrapping_add(skipped);
+        self.skipped += u64::from(skipped);
     }
 
     /// What of a plot is due.
@@ -128,4 +137,5 @@ pub(crate) fn typed(kind: &'static str, message: &impl Serialize) -> String {
 /// How often a scene that changes all the time is sent.
 const SCENE_EVERY: Duration = Duration::from_millis(250);
 const SERIES_EVERY: Duration = Duration::from_millis(50);
+const STATISTICS_EVERY: Duration = Duration::from_secs(1);
 const RECORDER_EVERY: Duration = Duration::from_secs(1);

@@ -176,7 +176,7 @@ async fn show_live(
         }
         let missed = due_after(&mut next, wanted.period());
         app.counts.skipped.add(missed.into());
-        view.go_on(1 + missed);
+        view.go_on(missed);
         sleep_until(next).await;
     }
 }

@@ -1,6 +1,7 @@
 //! What pages of live streams get.
 
 use crate::harness::{Stage, ada, ask};
+use posewire::stats::Statistics;
 use posewire::{Item, Notice};
 use posewire_motion::{DVec3, Frame, Skeleton, Subject};
 use std::sync::Arc;
@@ -131,6 +132,32 @@ fn states_follow_the_stream_and_come_back() {
     stage.walk(&ada(), 2, 0.0);
     let record = page.moved().records.remove(0);
     assert_eq!((record.state, record.sample), (0, 2));
+}
+
+#[test]
+fn how_the_streams_are_doing_is_told_as_monitor_tells_it() {
+    let mut stage = Stage::new();
+    let mut page = stage.page();
+    assert_eq!(page.words("statistics")["sources"], serde_json::json!([]));
+    let statistics = Statistics {
+        datagrams: 7,
+        malformed: 2,
+        ..Statistics::default()
+    };
+    stage.push(&Item::Statistics(Arc::new(statistics)));
+    let told = page.words("statistics");
+    let source = &told["sources"][0];
+    assert_eq!(
+        (&source["source"], &source["server"]),
+        (&0.into(), &serde_json::Value::Null)
+    );
+    assert_eq!(
+        (&source["receiver"]["datagrams"], &source["receiver"]["malformed"]),
+        (&7.into(), &2.into())
+    );
+    assert_eq!(told["page"]["connections"], 1);
+    let label = "posewire_malformed_total{source=\"mxtp://127.0.0.1:9763\"}";
+    assert_eq!(stage.metric(label), 2);
 }
 
 #[test]
