@@ -60,7 +60,7 @@ function groupKey(stream: StreamStatistics): string {
 }
 
 function streamGroup(source: SourceStatistics, key: string, prefix: string): Group {
-  const own = source.subjects.filter((stream) => groupKey(stream) === key);
+  const own = source.subjects.filter((stream) => groupKey(stream) === key).sort((a, b) => a.type.localeCompare(b.type));
   const first = own[0]!;
   const title = `${prefix}${first.name || `character ${first.character ?? 0}`}`;
   const rows = own.map((stream) => new StreamRow(streamKey(source, stream), stream));
@@ -79,7 +79,10 @@ function streamGroup(source: SourceStatistics, key: string, prefix: string): Gro
     const now = statistics.sources.find((each) => each.source === source.source);
     const streams = now?.subjects.filter((stream) => groupKey(stream) === key) ?? [];
     setText(summary, summaryOf(streams));
-    rows.forEach((row, place) => streams[place] && row.show(streams[place], room));
+    for (const row of rows) {
+      const stream = streams.find((each) => each.type === row.type);
+      if (stream) row.show(stream, room);
+    }
   };
   return { title, element, show };
 }
@@ -92,22 +95,22 @@ function summaryOf(streams: StreamStatistics[]): string {
 }
 
 class StreamRow {
+  readonly type: string;
   readonly element: HTMLTableRowElement;
   private readonly rate = h('td', { class: 'number' });
   private readonly missing = h('td', { class: 'number' });
   private readonly interval = h('td', { class: 'number' });
   private readonly line: Sparkline = sparkline();
-  private readonly label: HTMLElement;
 
   constructor(
     private readonly key: string,
     stream: StreamStatistics,
   ) {
-    this.label = h('th', { scope: 'row' }, typeName(stream.type));
+    this.type = stream.type;
     this.element = h(
       'tr',
       {},
-      this.label,
+      h('th', { scope: 'row' }, typeName(stream.type)),
       this.rate,
       h('td', { class: 'spark' }, this.line.element),
       this.missing,
