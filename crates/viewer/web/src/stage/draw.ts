@@ -16,6 +16,8 @@ export interface Manner {
   options: StageOptions;
   /** How strong the soft shadows under it are. */
   soft: number;
+  /** Whether the view goes along with it. */
+  followed: boolean;
   /** How many pixels high a person is where it stands. */
   pixels: number;
   /** Whether there is time for many triangles. */
@@ -29,6 +31,7 @@ export function draw(performer: Performer, brush: Brush, manner: Manner): void {
   drawParts(performer, brush, colors, manner);
   drawObject(performer, brush, colors);
   drawGround(performer, brush, look, colors, soft);
+  if (manner.followed) drawFollowed(performer, brush, colors);
   if (options.axes || performer.subject.kind === 'rigid body') drawAxes(performer, brush);
   if (options.trails) drawTrails(performer, brush, colors);
   if (options.com) drawCenterOfMass(performer, brush, look);
@@ -108,6 +111,12 @@ function drawGround(performer: Performer, brush: Brush, look: Look, colors: Tone
     brush.disks.add(x, y, z, 0.13, colors.glow, 0.55);
     brush.disks.add(x, y, z, 0.09, colors.glow, 0.5, 'ring');
   }
+}
+
+/** A ring around whom the view goes along with. */
+function drawFollowed(performer: Performer, brush: Brush, colors: Tones): void {
+  const at = performer.centre();
+  if (at) brush.disks.add(at.x, at.y, 0.0015, 0.5, colors.accent, 0.34, 'ring');
 }
 
 function grounded(performer: Performer): number[] {

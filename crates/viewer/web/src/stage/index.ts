@@ -1,11 +1,12 @@
-import { Box3, NeutralToneMapping, Raycaster, Scene, Vector2, Vector3, WebGLRenderer } from 'three';
+import { Box3, NeutralToneMapping, Scene, Vector3, WebGLRenderer } from 'three';
 import type { Subject, SubjectRecord } from '../protocol/types';
 import { Brush } from './brush';
 import { Eye } from './camera';
 import { draw } from './draw';
 import { DEFAULTS, type Preset, type StageOptions, type StageStats, type ViewState } from './options';
 import { Performer } from './performer';
-import { pick, pickPoints } from './pick';
+import { type Pickable, pickPoints } from './pick';
+import { Pointer } from './pointer';
 import { Pulse } from './pulse';
 import { AdaptiveQuality, QUALITY, type QualityStep, SLOW_START, STILL } from './quality';
 import { Floor } from './room/floor';
@@ -36,6 +37,7 @@ export class Stage {
   private readonly lights: Lights;
   private readonly tags: Tags;
   private readonly quality: AdaptiveQuality;
+  private readonly pointer: Pointer;
   private readonly pulse: Pulse;
   private readonly resized: ResizeObserver;
   private options: StageOptions = { ...DEFAULTS };
@@ -52,7 +54,6 @@ export class Stage {
   /** What the picture is drawn with now. */
   private step: QualityStep;
   private restedFor = 0;
-  private pressed: { x: number; y: number } | null = null;
 
   /** Throws where the browser has no WebGL 2. */
   constructor(readonly canvas: HTMLCanvasElement) {
@@ -69,14 +70,18 @@ export class Stage {
     this.brush = new Brush(this.scene);
     this.tags = new Tags(this.scene);
     this.eye = new Eye(canvas, () => (this.viewChanged = true));
+    this.pointer = new Pointer(
+      canvas,
+      this.eye.camera,
+      () => this.bodies(),
+      (id) => this.onSelect?.(id),
+    );
     this.pulse = new Pulse((seconds, sinceDrawn) => this.tick(seconds, sinceDrawn));
     this.setOptions({});
     this.resized = new ResizeObserver(() => this.resize());
     this.resized.observe(canvas);
     this.resize();
     canvas.addEventListener('webglcontextrestored', this.onRestored);
-    canvas.addEventListener('pointerdown', this.onDown);
-    canvas.addEventListener('pointerup', this.onUp);
     this.pulse.start();
   }
 
@@ -161,9 +166,16 @@ export class Stage {
     this.pulse.stop();
     this.resized.disconnect();
     this.canvas.removeEventListener('webglcontextrestored', this.onRestored);
-    this.canvas.removeEventListener('pointerdown', this.onDown);
-    this.canvas.removeEventListener('pointerup', this.onUp);
-    for (const part of [this.eye, this.brush, this.floor, this.sky, this.lights, this.tags, this.renderer])
+    for (const part of [
+      this.pointer,
+      this.eye,
+      this.brush,
+      this.floor,
+      this.sky,
+      this.lights,
+      this.tags,
+      this.renderer,
+    ])
       part.dispose();
   }
 
@@ -203,7 +215,8 @@ export class Stage {
     const soft = this.look.shadow * (this.step.shadows > 0 ? 0.42 : 0.85);
     for (const performer of shown) {
       const manner = { look: this.look, options: this.options, soft, lavish: this.step.shadows > 0 };
-      draw(performer, this.brush, { ...manner, pixels: this.pixels(performer) });
+      const followed = performer.subject.id === this.followed;
+      draw(performer, this.brush, { ...manner, followed, pixels: this.pixels(performer) });
     }
     this.brush.end();
     this.tags.write(this.options.names ? shown : [], this.look);
@@ -283,31 +296,11 @@ export class Stage {
     this.posesChanged = true;
   };
 
-  private readonly onDown = (event: PointerEvent): void => {
-    this.pressed = event.isPrimary ? { x: event.clientX, y: event.clientY } : null;
-  };
-
-  private readonly onUp = (event: PointerEvent): void => {
-    const from = this.pressed;
-    this.pressed = null;
-    if (!from || Math.hypot(event.clientX - from.x, event.clientY - from.y) > 5) return;
-    this.onSelect?.(this.under(event));
-  };
-
-  private under(event: PointerEvent): number | null {
-    const frame = this.canvas.getBoundingClientRect();
-    const x = ((event.clientX - frame.left) / frame.width) * 2 - 1;
-    const y = 1 - ((event.clientY - frame.top) / frame.height) * 2;
-    const caster = new Raycaster();
-    caster.setFromCamera(new Vector2(x, y), this.eye.camera);
-    const bodies = this.shown().map(({ subject, pose }) => ({
-      id: subject.id,
-      points: pickPoints(
-        pose.position,
-        subject.segments.map((segment) => segment.parent),
-      ),
-    }));
-    return pick(caster.ray, bodies);
+  private bodies(): Pickable[] {
+    return this.shown().map(({ subject, pose }) => {
+      const parents = subject.segments.map((segment) => segment.parent);
+      return { id: subject.id, points: pickPoints(pose.position, parents) };
+    });
   }
 }
 

@@ -100,7 +100,7 @@ varying float vEdge;
 void main() {
   float out_ = length(vAt);
   float stain = smoothstep(1.0, 0.0, out_);
-  float ring = smoothstep(0.72, 0.80, out_) * smoothstep(1.0, 0.92, out_);
+  float ring = smoothstep(0.74, 0.82, out_) * smoothstep(1.0, 0.93, out_);
   float alpha = vTint.a * mix(stain * stain, ring, vEdge);
   if (alpha < 0.004) discard;
   gl_FragColor = vec4(vTint.rgb, alpha);

@@ -171,12 +171,11 @@ function head(body: Body): Part[] {
       bulge: 0.008 * size,
       tone: 'skin',
     }),
-    part(skull, at(0.041, -0.056, 0.114), at(0.041, 0.056, 0.114), {
-      start: [0.019 * size, 0.03 * size],
-      caps: [0.016 * size, 0.016 * size],
-      bulge: 0.002 * size,
-      bow: 0.043 * size,
-      broad: UP,
+    // A band that comes out of the head in front alone: it says where the face is.
+    part(skull, at(0.0225, 0, 0.1), at(0.0205, 0, 0.129), {
+      start: [0.0712 * size, 0.09 * size],
+      end: [0.072 * size, 0.0905 * size],
+      caps: [0.007 * size, 0.007 * size],
       tone: 'visor',
     }),
   ];
@@ -292,4 +291,3 @@ function toe(body: Body, segment: number): Part {
 }
 
 const FORWARD = new Vector3(1, 0, 0);
-const UP = new Vector3(0, 0, 1);
