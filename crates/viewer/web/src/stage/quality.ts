@@ -13,7 +13,7 @@ export const QUALITY: readonly QualityStep[] = [
   { pixelRatio: 1, shadows: 1024 },
   { pixelRatio: 1, shadows: 0 },
   { pixelRatio: 0.85, shadows: 0 },
-  { pixelRatio: 0.7, shadows: 0 },
+  { pixelRatio: 0.75, shadows: 0 },
 ];
 
 /** The step that a machine without a graphics card begins with. */
