@@ -20,3 +20,4 @@ mod remote;
 mod replay;
 mod stream;
 mod takes;
+mod view;
