@@ -63,6 +63,20 @@ test('performers grow stale and lost when the stream stops, and live again with 
   assertQuiet(tab);
 });
 
+test('losses are counted, shown, and said where they happened', async (context) => {
+  const server = await view(context, ['mxtp://127.0.0.1:0']);
+  const faults = ['--types', '02,12,20', '--faults', 'loss=20%,seed=7'];
+  start(context, 'stream', 'synthetic:walk?rate=60', ...faults, '--to', server.endpoint);
+  const tab = await open(await browser(context), server.url);
+  await waitForStates(tab, ['LIVE']);
+  const row = tab.locator('tr', { hasText: '02 Quaternion' });
+  await until(async () => Number(await row.locator('.bad').textContent({ timeout: 20_000 })) >= 5, 'five missing samples');
+  await until(async () => /lost (behind|somewhere)/.test(await tab.locator('.streams').textContent()), 'where they were lost');
+  await until(async () => /\d Hz/.test(await tab.locator('.performer .rate').textContent()), 'a rate');
+  await picture(tab, 'losses');
+  assertQuiet(tab);
+});
+
 test('a page whose server goes says so, and comes back with it', async (context) => {
   const first = await view(context, ['synthetic:walk?people=1&rate=60']);
   const tab = await open(await browser(context), first.url);

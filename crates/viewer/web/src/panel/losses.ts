@@ -1,13 +1,14 @@
-/** Where the samples of a source were lost, and how late they come: what can be known, and what cannot. */
+/** Where the samples of a source were lost: what can be known, and what cannot. */
 
 import { h, setText } from '../dom/h';
-import { count, milliseconds } from '../model/format';
+import { count } from '../model/format';
 import { losses } from '../model/history';
-import type { Percentiles, SourceStatistics, Statistics } from '../protocol/statistics';
+import type { SourceStatistics, Statistics } from '../protocol/statistics';
+import { spread } from './transit';
 
 /** A part that folds, like those of the streams above it. */
 export function lossBlock(source: SourceStatistics, endpoint: string) {
-  const title = endpoint ? `Losses of ${endpoint}` : 'Losses and latency';
+  const title = endpoint ? `Losses of ${endpoint}` : 'Losses';
   const note = h('span', { class: 'summary-note' });
   const list = h('dl', { class: 'facts' });
   const facts = new Map<string, HTMLElement>();
@@ -66,21 +67,14 @@ function factsOf(source: SourceStatistics): Fact[] {
   return [...facts, ...latencies(source)];
 }
 
-/** Of NatNet alone, whose server has a clock that can be asked; MXTP has none. */
+/** Of NatNet, whose server has a clock that can be asked. */
 function latencies(source: SourceStatistics): Fact[] {
-  if (!source.server) {
-    const help = 'This protocol does not tell when a sample was taken: latency behind the sender cannot be known.';
-    return [{ name: 'Latency', value: 'not told', help }];
-  }
+  const latency = source.server?.latency_ms;
   const stages: [string, string, string][] = [
     ['camera_to_host', 'Exposure to sending', 'From the exposure of the cameras until the server sent the frame.'],
     ['host_to_here', 'Sending to here', 'From the sending to the arrival, as far off as the clocks are.'],
   ];
-  return stages.map(([stage, name, help]) => ({ name, value: spread(source.server?.latency_ms?.[stage]), help }));
-}
-
-function spread(of: Percentiles | null | undefined): string {
-  return of ? `${milliseconds(of.p50)}, p99 ${milliseconds(of.p99)}` : 'not known';
+  return source.server ? stages.map(([stage, name, help]) => ({ name, value: spread(latency?.[stage]), help })) : [];
 }
 
 function fact(list: HTMLElement, facts: Map<string, HTMLElement>, name: string, help: string): HTMLElement {

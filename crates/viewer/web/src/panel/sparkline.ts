@@ -33,9 +33,10 @@ function lossMarks(seconds: readonly Second[]): string {
   return marks.join('');
 }
 
-/** The newest second is at the right, whatever their number. */
+/** The newest second is at the right. What is short is drawn as if it were half a minute, to be seen at all. */
 function x(place: number, seconds: readonly Second[]): string {
-  return (WIDTH - 1 - (seconds.length - 1 - place) * ((WIDTH - 2) / 119)).toFixed(1);
+  const step = (WIDTH - 2) / (Math.max(seconds.length, 30) - 1);
+  return (WIDTH - 1 - (seconds.length - 1 - place) * step).toFixed(1);
 }
 
 function summary(seconds: readonly Second[]): string {

@@ -8,6 +8,7 @@ import type { SourceStatistics, Statistics, StreamStatistics } from '../protocol
 import type { Part } from './performers';
 import { lossBlock } from './losses';
 import { type Sparkline, sparkline } from './sparkline';
+import { transitFacts } from './transit';
 
 export function streams(room: Room): Part {
   const body = h('div', { class: 'streams' });
@@ -74,11 +75,14 @@ function streamGroup(source: SourceStatistics, key: string, prefix: string): Gro
     ),
   );
   const table = h('table', {}, h('thead', {}, head), h('tbody', {}, ...rows.map((row) => row.element)));
-  const element = h('details', {}, h('summary', {}, h('span', { class: 'summary-name' }, title), summary), table);
+  const transit = transitFacts();
+  const heading = h('summary', {}, h('span', { class: 'summary-name' }, title), summary);
+  const element = h('details', {}, heading, table, transit.element);
   const show = (statistics: Statistics, room: Room): void => {
     const now = statistics.sources.find((each) => each.source === source.source);
     const streams = now?.subjects.filter((stream) => groupKey(stream) === key) ?? [];
     setText(summary, summaryOf(streams));
+    transit.show(streams);
     for (const row of rows) {
       const stream = streams.find((each) => each.type === row.type);
       if (stream) row.show(stream, room);

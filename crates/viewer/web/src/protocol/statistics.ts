@@ -8,6 +8,13 @@ export interface Percentiles {
   max: number;
 }
 
+/** How long the samples of a character are on their way, milliseconds. */
+export interface Transit {
+  variation: Percentiles | null;
+  latency: Percentiles | null;
+  clocks: 'same' | 'agree' | 'differ' | 'no-timecode';
+}
+
 /** One datagram type of one character, or the frames of a NatNet server. */
 export interface StreamStatistics {
   character?: number | null;
@@ -23,6 +30,7 @@ export interface StreamStatistics {
   incomplete: number;
   kernel_dropped?: number;
   samples?: { done: number; partial: number; gone: number } | null;
+  transit_ms?: Transit | null;
   datagrams: number;
   quirks: Record<string, number>;
   interval_ms: Percentiles | null;
