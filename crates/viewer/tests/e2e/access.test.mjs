@@ -66,6 +66,22 @@ test('axe has no objection to takes, nor on a phone', async (context) => {
   assertQuiet(phone);
 });
 
+test('a page without the token says where it is', async (context) => {
+  const server = await view(context, ['synthetic:walk?rate=60'], '--token');
+  const opened = await browser(context);
+  const stranger = await opened.newPage();
+  await stranger.goto(new URL('/', server.url).href);
+  await until(
+    async () => /does not let this page in.*token/.test(await stranger.locator('#empty').textContent()),
+    'why',
+  );
+  await picture(stranger, 'refused');
+  const tab = await open(opened, server.url);
+  await waitForStates(tab, ['LIVE']);
+  assert.equal(new URL(tab.url()).search, '');
+  assertQuiet(tab);
+});
+
 test('everything is reached by keys, with the focus in sight', async (context) => {
   const server = await view(context, ['synthetic:walk?people=2&rate=60']);
   const tab = await open(await browser(context), server.url);

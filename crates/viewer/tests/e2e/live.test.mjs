@@ -70,8 +70,14 @@ test('losses are counted, shown, and said where they happened', async (context) 
   const tab = await open(await browser(context), server.url);
   await waitForStates(tab, ['LIVE']);
   const row = tab.locator('tr', { hasText: '02 Quaternion' });
-  await until(async () => Number(await row.locator('.bad').textContent({ timeout: 20_000 })) >= 5, 'five missing samples');
-  await until(async () => /lost (behind|somewhere)/.test(await tab.locator('.streams').textContent()), 'where they were lost');
+  await until(
+    async () => Number(await row.locator('.bad').textContent({ timeout: 20_000 })) >= 5,
+    'five missing samples',
+  );
+  await until(
+    async () => /lost (behind|somewhere)/.test(await tab.locator('.streams').textContent()),
+    'where they were lost',
+  );
   await until(async () => /\d Hz/.test(await tab.locator('.performer .rate').textContent()), 'a rate');
   await picture(tab, 'losses');
   assertQuiet(tab);

@@ -42,6 +42,7 @@ test('pictures are taken of performers, of a take and of a phone', { timeout: 18
   const tab = await open(opened, `${player.url}#frame=481&show=names,com,trails`);
   await until(() => tab.evaluate(() => window.posewire.player.shownFrame() === 481), 'frame 481');
   for (let step = 0; step < 30; step++) await tab.keyboard.press('ArrowRight');
+  await tab.keyboard.press('0');
   await tab.waitForTimeout(2500);
   await smallPicture(tab, 'viewer-take');
   assertQuiet(tab);

@@ -39,9 +39,9 @@ test(
     const after = memory(server);
 
     // Far less than 30 a second, and far longer than a tick: a busy machine with two software renderers is no failure.
-  assert.ok(counted.ticks > 5 * STOPPED, `the other page had ${counted.ticks} ticks in ${STOPPED} s`);
-  assert.ok(counted.longest < 500 * STOPPED, `the other page had nothing for ${counted.longest} ms`);
-  if (before !== null && after !== null) {
+    assert.ok(counted.ticks > 5 * STOPPED, `the other page had ${counted.ticks} ticks in ${STOPPED} s`);
+    assert.ok(counted.longest < 500 * STOPPED, `the other page had nothing for ${counted.longest} ms`);
+    if (before !== null && after !== null) {
       assert.ok(after - before < 32e6, `the server grew by ${((after - before) / 1e6).toFixed(1)} MB`);
     }
 

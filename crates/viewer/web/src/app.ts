@@ -15,6 +15,7 @@ import { clock as clockText, secondsOfDay, timeOfDay } from './model/format';
 import { findChannel } from './plots/channels';
 import { PlotPanel } from './plots/panel';
 import { Traces } from './plots/traces';
+import { Refusal, json, words } from './protocol/api';
 import type { Series, Tick } from './protocol/decode';
 import { Live, type Connection } from './protocol/live';
 import type { TextMessage } from './protocol/statistics';
@@ -164,6 +165,16 @@ export class App {
   private connected(state: Connection, retryIn: number): void {
     this.room.connection = state;
     this.room.retryAt = Date.now() + retryIn * 1000;
+    if (state === 'lost') void this.askWhy();
+  }
+
+  /** A WebSocket does not say why it was refused; the same question over HTTP is answered. */
+  private async askWhy(): Promise<void> {
+    try {
+      await json<Scene>('/api/scene');
+    } catch (error) {
+      if (error instanceof Refusal) this.room.refusal = words(error);
+    }
   }
 
   /** A source's clock runs as the server's does: the distance changes only when it was set or began anew. */

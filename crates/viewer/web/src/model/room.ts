@@ -25,6 +25,8 @@ export class Room {
   connection: Connection = 'connecting';
   /** When the next attempt to connect is made, milliseconds since 1970. */
   retryAt = 0;
+  /** Why the server lets this page in nowhere, in its words; null while it does. */
+  refusal: string | null = null;
   /** Whether the source has come to its end. */
   ended = false;
 
@@ -36,6 +38,7 @@ export class Room {
   /** Takes a description; those who left are forgotten. */
   describe(scene: Scene): void {
     this.scene = scene;
+    this.refusal = null;
     this.ended = false;
     const ids = new Set(scene.subjects.map((subject) => subject.id));
     for (const id of this.records.keys()) if (!ids.has(id)) this.records.delete(id);

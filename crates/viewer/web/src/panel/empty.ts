@@ -1,4 +1,4 @@
-/** What to do while nobody has come yet: where the server listens, and what the sender has to be told. */
+/** What to do while nobody is seen: where the server listens and what the sender has to be told, or why it lets nobody in. */
 
 import { h } from '../dom/h';
 import type { Room } from '../model/room';
@@ -7,14 +7,23 @@ import type { Room } from '../model/room';
 export function empty(element: HTMLElement, room: Room): () => void {
   let shown: unknown = null;
   return () => {
-    const nobody = room.scene !== null && room.subjects.length === 0;
+    const nobody = room.refusal !== null || (room.scene !== null && room.subjects.length === 0);
     element.hidden = !nobody;
-    if (!nobody || shown === room.scene) return;
-    shown = room.scene;
-    element.replaceChildren(
-      room.live ? waiting(room.scene?.source ?? []) : h('h2', {}, 'No performers in these files'),
-    );
+    const now = room.refusal ?? room.scene;
+    if (!nobody || shown === now) return;
+    shown = now;
+    element.replaceChildren(content(room));
   };
+}
+
+function content(room: Room): HTMLElement {
+  if (room.refusal !== null) return words('The server does not let this page in', room.refusal);
+  if (room.live) return waiting(room.scene?.source ?? []);
+  return words('Nobody is in these files', room.takes.map((take) => take.file).join(', '));
+}
+
+function words(title: string, text: string): HTMLElement {
+  return h('div', { class: 'waiting' }, h('h2', {}, title), h('p', {}, text));
 }
 
 function waiting(sources: string[]): HTMLElement {

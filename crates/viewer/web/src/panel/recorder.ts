@@ -4,7 +4,7 @@ import { h, setAttribute, setText } from '../dom/h';
 import { icon } from '../dom/icons';
 import { bytes, clock, count } from '../model/format';
 import type { Room } from '../model/room';
-import { Refusal, json, post } from '../protocol/api';
+import { json, post, words } from '../protocol/api';
 import type { Recorder, Recording } from '../protocol/statistics';
 import type { Part } from './performers';
 
@@ -94,9 +94,4 @@ function recordingRow(recording: Recording): HTMLLIElement {
   const when = new Date(typeof recording.modified === 'number' ? recording.modified * 1000 : recording.modified);
   const detail = `${bytes(recording.bytes)}, ${when.toLocaleString('en-GB', { dateStyle: 'medium', timeStyle: 'short' })}`;
   return h('li', {}, h('span', { class: 'name' }, recording.name), h('span', { class: 'detail' }, detail), link);
-}
-
-function words(error: unknown): string {
-  if (error instanceof Refusal && error.help) return `${error.message}. ${error.help}`;
-  return error instanceof Error ? error.message : String(error);
 }

@@ -11,6 +11,12 @@ export class Refusal extends Error {
   }
 }
 
+/** What to tell of an error. */
+export function words(error: unknown): string {
+  if (error instanceof Refusal && error.help) return `${error.message}. ${error.help}`;
+  return error instanceof Error ? error.message : String(error);
+}
+
 /** Asks for JSON. */
 export async function json<Answer>(path: string): Promise<Answer> {
   const response = await ask(path, {});
