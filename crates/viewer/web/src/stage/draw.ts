@@ -32,7 +32,7 @@ export function draw(performer: Performer, brush: Brush, manner: Manner): void {
   drawObject(performer, brush, colors);
   drawGround(performer, brush, look, colors, soft);
   if (manner.followed) drawFollowed(performer, brush, colors);
-  if (options.axes || performer.subject.kind === 'rigid body') drawAxes(performer, brush);
+  if (options.axes || performer.subject.kind === 'rigid body') drawAxes(performer, brush, manner.pixels);
   if (options.trails) drawTrails(performer, brush, colors);
   if (options.com) drawCenterOfMass(performer, brush, look);
   if (options.markers) drawMarkers(performer, brush, look, colors);
@@ -138,15 +138,16 @@ const AXES: [Vector3, Color][] = [
 ];
 
 /** The local axes of segments whose orientation was sent. */
-function drawAxes(performer: Performer, brush: Brush): void {
+function drawAxes(performer: Performer, brush: Brush, pixels: number): void {
   if (!performer.pose.turned) return;
+  const width = Math.min(Math.max(pixels / 130, 1), 2);
   performer.subject.segments.forEach((segment, place) => {
-    if (presence(performer, place) !== Seen.Now) return;
+    if (presence(performer, place) !== Seen.Now || (isFinger(segment) && pixels < SMALL)) return;
     const length = isFinger(segment) ? 0.018 : performer.subject.kind === 'rigid body' ? 0.16 : 0.1;
     const at = performer.place(place);
     for (const [axis, color] of AXES) {
       const tip = performer.point(place, axis.clone().multiplyScalar(length));
-      brush.topLines.add(at, tip.toArray(), color, isFinger(segment) ? 1.2 : 2, 0.95);
+      brush.topLines.add(at, tip.toArray(), color, isFinger(segment) ? 0.6 * width : width, 0.95);
     }
   });
 }

@@ -5,7 +5,6 @@ import {
   InstancedBufferAttribute,
   InstancedBufferGeometry,
   Mesh,
-  type Object3D,
   ShaderMaterial,
 } from 'three';
 
@@ -30,11 +29,6 @@ export class Disks {
     );
     this.mesh.frustumCulled = false;
     this.grow(128);
-  }
-
-  addTo(parent: Object3D): this {
-    parent.add(this.mesh);
-    return this;
   }
 
   begin(): void {

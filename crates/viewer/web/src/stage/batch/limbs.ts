@@ -6,7 +6,6 @@ import {
   type Material,
   Mesh,
   MeshDepthMaterial,
-  type Object3D,
   type Quaternion,
   type Vector3,
 } from 'three';
@@ -28,11 +27,6 @@ export class Limbs {
     this.mesh.customDepthMaterial = drawLimbs(new MeshDepthMaterial());
     this.mesh.frustumCulled = false;
     this.grow(256);
-  }
-
-  addTo(parent: Object3D): this {
-    parent.add(this.mesh);
-    return this;
   }
 
   begin(): void {

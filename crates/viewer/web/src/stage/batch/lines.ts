@@ -5,7 +5,6 @@ import {
   InstancedBufferAttribute,
   InstancedBufferGeometry,
   Mesh,
-  type Object3D,
   ShaderMaterial,
   Vector2,
 } from 'three';
@@ -26,11 +25,6 @@ export class Lines {
     this.mesh = new Mesh(geometry, material(onTop));
     this.mesh.frustumCulled = false;
     this.grow(512);
-  }
-
-  addTo(parent: Object3D): this {
-    parent.add(this.mesh);
-    return this;
   }
 
   /** The drawing's size in CSS pixels, for the width of lines. */
