@@ -134,7 +134,9 @@ async fn series(
     let (Ok(Path(take)), Ok(Query(named))) = (take, channel) else {
         return Err(Refused::malformed(&app, "a take's number and a channel"));
     };
-    let series = takes(&app)?.series(take, &named.channel);
+    let takes = takes(&app)?.clone();
+    let work = tokio::task::spawn_blocking(move || takes.series(take, &named.channel));
+    let series = work.await.map_err(|_| Refused::missing(&app))?;
     series.map(bytes).map_err(|error| Refused::of(&app, &error))
 }
 

@@ -3,9 +3,11 @@
 use crate::channel::{self, Channel};
 use crate::scene::{MarkerRecord, Scene, SubjectRecord, TakeRecord};
 use crate::{Error, Result, wire};
-use posewire_motion::{Frame, Section, Take};
+use posewire_motion::kinematics::{Differences, complete, completed};
+use posewire_motion::{Frame, Take};
 use std::ops::Range;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Takes that a page plays itself, whole in memory. Clones share them.
 ///
@@ -76,7 +78,8 @@ impl Takes {
         Ok(out)
     }
 
-    /// A channel of every frame of a take, as a series message of number 0.
+    /// A channel of every frame of a take, as a series message of number 0. What the take lacks and its poses tell is
+    /// worked out, which takes seconds for a long one.
     ///
     /// # Errors
     /// [`Error::NoTake`] and [`Error::NoChannel`] for what there is not.
@@ -84,10 +87,17 @@ impl Takes {
         let take = self.take(take)?;
         let missing = || Error::NoChannel { found: name.to_owned() };
         let channel = Channel::named(name, &take.subject.skeleton).ok_or_else(missing)?;
-        let column = take.column(channel.section()).ok_or_else(missing)?;
-        let times: Vec<_> = take.times().iter().map(std::time::Duration::as_secs_f64).collect();
-        let scaled = |row: &[f64]| (row.get(channel.place()).copied().unwrap_or(f64::NAN) * channel.scale()) as f32;
-        let values: Vec<_> = column.rows().map(scaled).collect();
+        let values = match take.column(channel.section()) {
+            Some(column) => {
+                let scaled = |row: &[f64]| {
+                    row.get(channel.place())
+                        .map_or(f32::NAN, |value| (value * channel.scale()) as f32)
+                };
+                column.rows().map(scaled).collect()
+            }
+            None => computed(take, channel).ok_or_else(missing)?,
+        };
+        let times: Vec<_> = take.times().iter().map(Duration::as_secs_f64).collect();
         Ok(wire::series(0, &times, &values))
     }
 
@@ -149,9 +159,29 @@ fn starts(takes: &[Take]) -> Vec<f64> {
     known.into_iter().map(|at| at - first).collect()
 }
 
+/// The sections of a take, and those that its poses tell.
 fn present(take: &Take) -> u32 {
-    let sections: &mut dyn Iterator<Item = Section> = &mut take.sections();
-    sections.fold(0, |bits, section| bits | channel::bit(section))
+    let sections = take.sections().fold(0, |bits, section| bits | channel::bit(section));
+    let beginning = completed(&take.slice(0..take.len().min(BEGINNING)));
+    beginning.map_or(sections, |beginning| {
+        beginning
+            .sections()
+            .fold(sections, |bits, section| bits | channel::bit(section))
+    })
+}
+
+/// A channel of a section that the take lacks, from its poses; `None` when they tell nothing of it.
+///
+/// It is worked out frame by frame: all sections of a long take at once would not fit into the memory of a small machine.
+fn computed(take: &Take, channel: Channel) -> Option<Vec<f32>> {
+    let mut differences = Differences::new(take.rate);
+    let mut values = Vec::with_capacity(take.len());
+    for mut frame in take.frames() {
+        complete(&mut frame);
+        values.extend(differences.push(frame).map(|frame| channel.value(&frame)));
+    }
+    values.extend(differences.finish().map(|frame| channel.value(&frame)));
+    values.iter().any(|value| !value.is_nan()).then_some(values)
 }
 
 /// The files, each once.
@@ -164,3 +194,6 @@ fn named_once(files: &[String]) -> Arc<[String]> {
     }
     names.into()
 }
+
+/// How many frames show what can be computed.
+const BEGINNING: usize = 16;

@@ -4,6 +4,7 @@ use crate::decode::{self, Record};
 use crate::harness::{Answer, Page, ask};
 use posewire::endpoint::Walk;
 use posewire::source::synthetic;
+use posewire_motion::kinematics::completed;
 use posewire_motion::{Section, Take};
 use posewire_viewer::{Content, Options, Server, Takes};
 use std::sync::Arc;
@@ -83,6 +84,44 @@ fn a_series_is_a_channel_of_every_frame() {
             .position(|joint| joint.name == "jRightKnee");
         let degrees = frame.joint_angles[knee.unwrap()].unwrap().z.to_degrees() as f32;
         assert!((angles.values[place] - degrees).abs() < 1e-4);
+    }
+}
+
+#[test]
+fn what_the_take_lacks_is_worked_out_from_its_poses() {
+    let mut take = walk(0..50);
+    let sent = take.remove_column(Section::JointAngles).unwrap();
+    take.remove_column(Section::Velocity);
+    let whole = completed(&take).unwrap();
+    let server = serve(Takes::new([("walk.mvnx".to_owned(), take)]));
+    let scene = ask(server.address(), "/api/scene").json();
+    let sections = scene["subjects"][0]["channels"].as_array().unwrap();
+    for section in ["joint_angles", "velocity", "acceleration"] {
+        assert!(sections.iter().any(|group| group["section"] == section), "{section}");
+    }
+    let read = |channel: &str| {
+        let answer = ask(server.address(), &format!("/api/takes/0/series?channel={channel}"));
+        decode::series(&answer.body).unwrap().values
+    };
+    let (angles, speeds) = (read("joint_angles/jRightKnee/z"), read("velocity/Pelvis/x"));
+    let knee = whole
+        .subject
+        .skeleton
+        .joints
+        .iter()
+        .position(|joint| joint.name == "jRightKnee")
+        .unwrap();
+    for place in 0..50 {
+        let told = sent.row(place)[3 * knee + 2].to_degrees();
+        assert!(
+            (f64::from(angles[place]) - told).abs() < 0.1,
+            "{} {told}",
+            angles[place]
+        );
+        assert_eq!(
+            speeds[place].to_bits(),
+            (whole.frame(place).velocity[0].unwrap().x as f32).to_bits()
+        );
     }
 }
 
