@@ -154,7 +154,7 @@ function drawAxes(performer: Performer, brush: Brush, pixels: number): void {
 
 function drawTrails(performer: Performer, brush: Brush, colors: Tones): void {
   for (const [place, trail] of performer.trails) {
-    if (presence(performer, place) === Seen.Now) trail.draw(brush.lines, colors.accent, performer.place(place));
+    if (presence(performer, place) === Seen.Now) trail.draw(brush.lines, colors.glow, performer.place(place));
   }
 }
 
