@@ -72,7 +72,7 @@ test('a page without the token says where it is', async (context) => {
   const stranger = await opened.newPage();
   await stranger.goto(new URL('/', server.url).href);
   await until(
-    async () => /does not let this page in.*token/.test(await stranger.locator('#empty').textContent()),
+    async () => /does not let this page in.*The token/.test(await stranger.locator('#empty').textContent()),
     'why',
   );
   await picture(stranger, 'refused');

@@ -19,8 +19,10 @@ function text(room: Room, state: string): string {
     case 'ended':
       return 'The source has ended';
     case 'connecting':
+      if (room.refusal !== null) return 'Not let in';
       return room.scene ? 'Connection lost, trying again' : 'Connecting';
     default: {
+      if (room.refusal !== null) return 'Not let in';
       const seconds = Math.ceil((room.retryAt - Date.now()) / 1000);
       return seconds > 0 ? `Connection lost, next try in ${seconds} s` : 'Connection lost, trying again';
     }

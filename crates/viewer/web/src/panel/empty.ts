@@ -1,4 +1,4 @@
-/** What to do while nobody is seen: where the server listens and what the sender has to be told, or why it lets nobody in. */
+/** What to do while nobody is seen: where the server listens, what the sender has to be told, why nobody is let in. */
 
 import { h } from '../dom/h';
 import type { Room } from '../model/room';

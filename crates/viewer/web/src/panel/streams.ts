@@ -1,4 +1,4 @@
-/** How each stream is doing: per datagram type its rate, what is missing, how evenly it comes; and where it was lost. */
+/** How each stream is doing: per datagram type its rate, what is missing, how evenly it comes; where it was lost. */
 
 import { h, setText } from '../dom/h';
 import { count, milliseconds, shortRate } from '../model/format';

@@ -8,6 +8,7 @@ import type { Span } from '../transport/timeline';
 import { channelKey, title } from './channels';
 import { Chart } from './chart';
 import { pickChannels } from './picker';
+import { thin } from './thin';
 import { type Trace, type Traces, WINDOW } from './traces';
 import { type Column, table, valueAt } from './table';
 
@@ -188,7 +189,8 @@ export class PlotPanel {
       if (!this.paused || group.columns.length === 0) group.columns = group.traces.map((trace) => trace.column());
     }
     const { min, max } = this.zoomed ?? this.window();
-    for (const group of this.groups) group.chart.draw(table(group.columns), min, max);
+    for (const group of this.groups)
+      group.chart.draw(table(group.columns.map((column) => thin(column, min, max, BUCKETS))), min, max);
   }
 
   /** The stretch of time that is seen: of takes everything, live the last seconds. */
@@ -240,6 +242,8 @@ function button(name: 'pause' | 'reset' | 'remove', label: string, onclick: () =
 }
 
 const COLORS = 8;
+/** Places for a lowest and a highest value over the width of a chart. */
+const BUCKETS = 1000;
 const UNITS: Record<string, string> = {
   deg: '°',
   'deg/s': '°/s',

@@ -3,6 +3,7 @@ import { channelKey, findChannel, search, suggestions, title } from './channels'
 import { niceRange } from './range';
 import { Rolling } from './rolling';
 import { table, valueAt } from './table';
+import { thin } from './thin';
 import type { Subject } from '../protocol/types';
 
 const subjects = [
@@ -95,5 +96,34 @@ describe('the range of a chart', () => {
     expect(low).toBeLessThan(5);
     expect(high).toBeGreaterThan(5);
     expect(niceRange(null, null)).toEqual([0, 1]);
+  });
+});
+
+describe('a long channel', () => {
+  const time = Float64Array.from({ length: 100_000 }, (_, sample) => sample / 100);
+  const value = Float32Array.from(time, (_, sample) =>
+    sample === 54_321 ? 9 : sample === 54_325 ? -9 : Math.sin(sample),
+  );
+  const column = { time, value };
+
+  it('keeps its peaks, and the times that others share', () => {
+    const thinned = thin(column, 0, 1000, 500);
+    expect(thinned.time.length).toBeLessThanOrEqual(1002);
+    expect([Math.max(...thinned.value), Math.min(...thinned.value)]).toEqual([9, -9]);
+    expect(thinned.value.indexOf(9)).toBeLessThan(thinned.value.indexOf(-9));
+    expect(thin({ time, value: value.map((each) => -each) }, 0, 1000, 500).time).toEqual(thinned.time);
+    expect([...thinned.time]).toEqual([...thinned.time].sort((a, b) => a - b));
+  });
+
+  it('is whole where it is seen closely, with a sample on each side', () => {
+    const seen = thin(column, 500.005, 500.025, 500);
+    expect([...seen.time]).toEqual([500, 500.01, 500.02, 500.03]);
+  });
+
+  it('has a hole where nothing is known', () => {
+    const holed = { time, value: value.map((each, sample) => (sample < 50_000 ? NaN : each)) };
+    const thinned = thin(holed, 0, 1000, 100);
+    expect(thinned.value.slice(0, 100).every(Number.isNaN)).toBe(true);
+    expect(thinned.value.slice(110).some(Number.isNaN)).toBe(false);
   });
 });

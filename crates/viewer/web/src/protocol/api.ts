@@ -13,8 +13,12 @@ export class Refusal extends Error {
 
 /** What to tell of an error. */
 export function words(error: unknown): string {
-  if (error instanceof Refusal && error.help) return `${error.message}. ${error.help}`;
+  if (error instanceof Refusal && error.help) return `${sentence(error.message)} ${sentence(error.help)}`;
   return error instanceof Error ? error.message : String(error);
+}
+
+function sentence(text: string): string {
+  return `${text.charAt(0).toUpperCase()}${text.slice(1)}${text.endsWith('.') ? '' : '.'}`;
 }
 
 /** Asks for JSON. */

@@ -102,8 +102,8 @@ export class Live {
 }
 
 /**
- * Seconds until the next attempt: from 0.25 s it doubles to 4 s, give or take a quarter. `chance`, 0 to 1, spreads the pages of a room, which
- * all lost the server at the same moment.
+ * Seconds until the next attempt: from 0.25 s it doubles to 4 s, give or take a quarter. `chance`, 0 to 1, spreads the
+ * pages of a room, which all lost the server at the same moment.
  */
 export function backoff(failures: number, chance: number): number {
   return Math.min(4, 0.25 * 2 ** failures) * (0.75 + 0.5 * chance);

@@ -1,4 +1,4 @@
-/** What the person at the page chooses of the view: whom to follow, what to show, the theme; to keep and to share it. */
+/** What the person at the page chooses: whom to follow, what to show, the theme; to keep the view and to share it. */
 
 import type { App } from '../app';
 import { byId } from '../dom/h';
