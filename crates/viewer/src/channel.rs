@@ -34,6 +34,21 @@ pub(crate) fn present(frame: &Frame) -> u32 {
     has.fold(0, |bits, section| bits | bit(section))
 }
 
+/// The sections of a live subject that has had these: they, and those that its poses tell of each frame.
+pub(crate) fn with_told(present: u32) -> u32 {
+    let angles = [
+        Section::JointAngles,
+        Section::JointAnglesXzy,
+        Section::ErgonomicAngles,
+        Section::ErgonomicAnglesXzy,
+    ];
+    let of_positions = [Section::Velocity, Section::Acceleration].as_slice();
+    let told = [(Section::Position, of_positions), (Section::Orientation, &angles)];
+    let told = told.into_iter().filter(|(of, _)| present & bit(*of) != 0);
+    told.flat_map(|(_, told)| told)
+        .fold(present, |bits, section| bits | bit(*section))
+}
+
 /// The bit of a section.
 pub(crate) const fn bit(section: Section) -> u32 {
     1 << section as u32
@@ -68,6 +83,11 @@ impl Channel {
         };
         let value = value.map(|q| [q.w, q.x, q.y, q.z][self.axis]);
         value.unwrap_or(f64::NAN) as f32
+    }
+
+    /// The channel of the same entry and axis of another section that has as many of each.
+    pub(crate) fn of(self, section: Section) -> Self {
+        Self { section, ..self }
     }
 
     /// The section that it is of.

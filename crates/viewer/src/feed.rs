@@ -1,6 +1,7 @@
 //! The newest of everything that live sources bring, for any number of pages.
 
-use crate::channel::present;
+use crate::channel::{present, with_told};
+use crate::derived::SampleRate;
 use crate::scene::{Scene, SubjectRecord};
 use crate::series::{Plot, Wish};
 use crate::wire::{self, State};
@@ -51,6 +52,7 @@ struct Live {
     arrived: Instant,
     /// The time from frame to frame, s, smoothed.
     period: f64,
+    rate: SampleRate,
     /// The sections that it has had.
     present: u32,
     /// The frame as pages get it, once one has asked.
@@ -116,7 +118,8 @@ impl Feed {
     pub(crate) fn subjects(&self) -> Vec<SubjectRecord> {
         let newest = self.lock();
         let subjects = newest.subjects.iter().zip(0..);
-        let subjects = subjects.map(|(live, id)| SubjectRecord::new(id, live.source.0, &live.subject, live.present));
+        let subjects =
+            subjects.map(|(live, id)| SubjectRecord::new(id, live.source.0, &live.subject, with_told(live.present)));
         subjects.collect()
     }
 
@@ -228,8 +231,9 @@ impl Newest {
         if live.take(frame, self.frames, now) {
             self.version += 1;
         }
+        let rate = frame.subject.rate.or_else(|| live.rate.rate());
         for plot in self.plots.iter().filter_map(Weak::upgrade) {
-            lock(&plot).take(id, frame);
+            lock(&plot).take(id, frame, rate);
         }
     }
 
@@ -251,6 +255,7 @@ impl Live {
             number: 0,
             arrived: Instant::now(),
             period: 0.0,
+            rate: SampleRate::default(),
             present: 0,
             record: None,
         }
@@ -264,6 +269,7 @@ impl Live {
         }
         (self.number, self.arrived) = (number, now);
         self.record = None;
+        self.rate.take(frame);
         let before = self.present;
         self.present |= present(frame);
         self.frame = Some(Arc::clone(frame));

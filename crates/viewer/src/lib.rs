@@ -27,6 +27,7 @@ mod assets;
 mod channel;
 mod connection;
 mod counts;
+mod derived;
 mod error;
 mod feed;
 mod guard;

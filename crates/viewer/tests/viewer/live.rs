@@ -61,14 +61,18 @@ fn a_subject_that_changes_or_sends_more_is_described_again() {
     let mut page = stage.page();
     let scene = page.words("scene");
     assert_eq!(scene["subjects"][0]["channels"][0]["section"], "position");
-    assert_eq!(scene["subjects"][0]["channels"].as_array().unwrap().len(), 1);
+    assert_eq!(
+        scene["subjects"][0]["channels"].as_array().unwrap().len(),
+        3,
+        "velocities are worked out"
+    );
 
     let mut frame = Frame::new(Arc::clone(&subject));
     frame.joint_angles = vec![Some(DVec3::ZERO); 22];
     stage.show(frame);
     let channels = &page.words("scene")["subjects"][0]["channels"];
     assert_eq!(
-        (&channels[1]["section"], &channels[1]["unit"]),
+        (&channels[3]["section"], &channels[3]["unit"]),
         (&"joint_angles".into(), &"deg".into())
     );
 
