@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { assertQuiet, browser, open, picture, waitForStates } from './lib/page.mjs';
-import { monitor, start, stop, until, view } from './lib/program.mjs';
+import { monitor, said, start, stop, until, view } from './lib/program.mjs';
 
 test('performers are where the stream says, and move', async (context) => {
   const truth = await monitor(context);
@@ -80,6 +80,18 @@ test('losses are counted, shown, and said where they happened', async (context) 
   );
   await until(async () => /\d Hz/.test(await tab.locator('.performer .rate').textContent()), 'a rate');
   await picture(tab, 'losses');
+  assertQuiet(tab);
+});
+
+test("a NatNet server's skeletons are shown with its latencies", async (context) => {
+  const motive = start(context, 'stream', 'synthetic:walk?people=2&rate=60', '--to', 'natnet://127.0.0.1:0?data-port=0');
+  const address = /natnet:\/\/127\.0\.0\.1:\d+/.exec(await said(motive, '  to '))[0];
+  const server = await view(context, [address]);
+  const tab = await open(await browser(context), server.url);
+  await waitForStates(tab, ['LIVE', 'LIVE']);
+  const latency = tab.locator('.facts div', { hasText: 'Sending to here' }).locator('dd');
+  await until(async () => /^\d.* ms, p99 \d.* ms$/.test(await latency.textContent()), 'a latency');
+  await picture(tab, 'natnet');
   assertQuiet(tab);
 });
 

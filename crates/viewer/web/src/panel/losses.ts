@@ -8,7 +8,8 @@ import { spread } from './transit';
 
 /** A part that folds, like those of the streams above it. */
 export function lossBlock(source: SourceStatistics, endpoint: string) {
-  const title = endpoint ? `Losses of ${endpoint}` : 'Losses';
+  const what = source.server ? 'Losses and latency' : 'Losses';
+  const title = endpoint ? `${what} of ${endpoint}` : what;
   const note = h('span', { class: 'summary-note' });
   const list = h('dl', { class: 'facts' });
   const facts = new Map<string, HTMLElement>();
