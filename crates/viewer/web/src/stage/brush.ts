@@ -19,7 +19,7 @@ export class Brush {
   readonly near = new Limbs({ sides: 18, capRings: 4, shaftRings: 5 }, cloth());
   /** For performers who are small in the picture, and for those who are hardly more than a dot. */
   readonly far = new Limbs({ sides: 8, capRings: 2, shaftRings: 0 }, felt());
-  readonly tiny = new Limbs({ sides: 6, capRings: 2, shaftRings: 0 }, felt());
+  readonly tiny = new Limbs({ sides: 4, capRings: 2, shaftRings: 0 }, felt());
   readonly fine = new Limbs({ sides: 7, capRings: 2, shaftRings: 0 }, felt());
   readonly ghost = new Limbs({ sides: 12, capRings: 3, shaftRings: 2 }, mist());
   readonly balls = new Limbs(

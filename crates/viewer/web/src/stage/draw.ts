@@ -63,7 +63,7 @@ function drawParts(performer: Performer, brush: Brush, colors: Tones, { pixels, 
 
 /** Persons of fewer pixels are drawn with fewer triangles, and still smaller ones without fingers. */
 const SMALL = 210;
-const TINY = 90;
+const TINY = 75;
 /** From here on the edges of triangles would be seen. */
 const LARGE = 480;
 

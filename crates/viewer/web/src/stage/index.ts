@@ -28,6 +28,7 @@ export { subjectColor } from './palette';
 export class Stage {
   /** Called with the subject that was clicked or tapped, null for none. */
   onSelect: ((id: number | null) => void) | null = null;
+  private readonly software = drawnBySoftware();
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly eye: Eye;
@@ -57,12 +58,11 @@ export class Stage {
 
   /** Throws where the browser has no WebGL 2. */
   constructor(readonly canvas: HTMLCanvasElement) {
-    const slow = drawnBySoftware();
-    this.renderer = new WebGLRenderer({ canvas, antialias: !slow, powerPreference: 'high-performance' });
+    this.renderer = new WebGLRenderer({ canvas, antialias: !this.software, powerPreference: 'high-performance' });
     this.renderer.toneMapping = NeutralToneMapping;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.autoUpdate = false;
-    this.quality = new AdaptiveQuality(slow ? SLOW_START : 0);
+    this.quality = new AdaptiveQuality(this.software ? SLOW_START : 0);
     this.step = QUALITY[this.quality.step] ?? STILL;
     this.floor = new Floor(this.scene);
     this.sky = new Sky(this.scene);
@@ -159,7 +159,7 @@ export class Stage {
   stats(): StageStats {
     const { calls, triangles } = this.renderer.info.render;
     const positions = (id: number) => this.performers.get(id)?.pose.position.slice() ?? new Float32Array();
-    return { fps: this.pulse.fps(), quality: this.quality.step, calls, triangles, positions };
+    return { fps: this.pulse.fps(), quality: this.quality.step, software: this.software, calls, triangles, positions };
   }
 
   dispose(): void {

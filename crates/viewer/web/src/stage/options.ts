@@ -43,6 +43,8 @@ export interface StageStats {
   fps: number;
   /** The step of quality that is drawn, 0 the best. */
   quality: number;
+  /** Whether a processor draws, for want of a graphics card: what is dear there had better be left out. */
+  software: boolean;
   /** Draw calls and triangles of the last frame. */
   calls: number;
   triangles: number;
