@@ -61,6 +61,7 @@ export class App {
     );
     this.plots = new PlotPanel(byId('plots'), this.traces, this.plotSource(), () => this.controls.togglePlots());
     this.controls = new ViewControls(this);
+    document.body.toggleAttribute('data-software', this.stage.stats().software);
     this.refreshes = this.parts();
     this.stage.onSelect = (id) => this.controls.follow(id);
     listen(keysOf(this));
