@@ -1,7 +1,7 @@
 //! Connections: so many are served, the others are told that there is no room.
 
 use crate::counts::Counts;
-use crate::patience::{PATIENCE, Patient};
+use crate::patience::Patient;
 use axum::Router;
 use hyper::server::conn::http1;
 use hyper_util::rt::{TokioIo, TokioTimer};
@@ -17,8 +17,14 @@ use tokio::time::{sleep, timeout};
 /// The most connections that are served at a time. A page has one for its socket and some for a moment.
 pub(crate) const MOST_CONNECTIONS: usize = 64;
 
-/// Serves connections until `stop` is set.
-pub(crate) async fn serve(listener: TcpListener, router: Router, counts: Arc<Counts>, mut stop: watch::Receiver<bool>) {
+/// Serves connections until `stop` is set. One that takes nothing for as long as `patience` is closed.
+pub(crate) async fn serve(
+    listener: TcpListener,
+    router: Router,
+    counts: Arc<Counts>,
+    patience: Duration,
+    mut stop: watch::Receiver<bool>,
+) {
     let room = Arc::new(Semaphore::new(MOST_CONNECTIONS));
     let refusing = Arc::new(Semaphore::new(MOST_REFUSALS));
     loop {
@@ -34,7 +40,7 @@ pub(crate) async fn serve(listener: TcpListener, router: Router, counts: Arc<Cou
         if let Ok(place) = Arc::clone(&room).try_acquire_owned() {
             let (router, counts) = (router.clone(), Arc::clone(&counts));
             prepare(&stream);
-            tokio::spawn(serve_one(Patient::new(stream, counts, place), router));
+            tokio::spawn(serve_one(Patient::new(stream, patience, counts, place), router));
         } else {
             counts.refused.connections.add(1);
             if let Ok(place) = Arc::clone(&refusing).try_acquire_owned() {
@@ -50,7 +56,7 @@ pub(crate) async fn serve(listener: TcpListener, router: Router, counts: Arc<Cou
 async fn serve_one(stream: Patient, router: Router) {
     let served = http1::Builder::new()
         .timer(TokioTimer::new())
-        .header_read_timeout(PATIENCE)
+        .header_read_timeout(HEAD_TIME)
         .max_buf_size(MOST_HEAD)
         .serve_connection(TokioIo::new(stream), TowerToHyperService::new(router))
         .with_upgrades();
@@ -85,5 +91,7 @@ const NO_ROOM: &[u8] = b"HTTP/1.1 503 Service Unavailable\r\nconnection: close\r
 /// The most connections that are being told so at a time; those beyond are closed without a word.
 const MOST_REFUSALS: usize = 256;
 const SEND_BUFFER: usize = 128 * 1024;
+/// How long the head of a request may take to come.
+const HEAD_TIME: Duration = Duration::from_secs(10);
 /// The most bytes of a request's head.
 const MOST_HEAD: usize = 16 * 1024;

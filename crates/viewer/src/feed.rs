@@ -115,7 +115,7 @@ impl Feed {
     }
 
     /// Every subject that there was, in the order of the page's numbers.
-    pub(crate) fn subjects(&self) -> Vec<SubjectRecord> {
+    fn subjects(&self) -> Vec<SubjectRecord> {
         let newest = self.lock();
         let subjects = newest.subjects.iter().zip(0..);
         let subjects =
@@ -123,11 +123,10 @@ impl Feed {
         subjects.collect()
     }
 
-    /// The scene as JSON; as a message of the socket, it says so.
-    pub(crate) fn scene(&self, recorder: bool, is_message: bool) -> String {
+    /// The scene as JSON.
+    pub(crate) fn scene(&self, recorder: bool) -> String {
         let subjects = self.subjects();
         let scene = Scene::live(&self.sources, &subjects, recorder);
-        let scene = if is_message { scene.message() } else { scene };
         serde_json::to_string(&scene).unwrap_or_default()
     }
 

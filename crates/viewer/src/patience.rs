@@ -11,11 +11,12 @@ use tokio::net::TcpStream;
 use tokio::sync::OwnedSemaphorePermit;
 use tokio::time::{Instant, Sleep, sleep};
 
-/// A connection whose writing fails when nothing could be written for [`PATIENCE`]: a page that is stuck, or a download
+/// A connection whose writing fails when nothing could be written for a while: a page that is stuck, or a download
 /// that nobody takes, holds its place no longer.
 #[derive(Debug)]
 pub(crate) struct Patient {
     stream: TcpStream,
+    patience: Duration,
     waiting: Pin<Box<Sleep>>,
     is_waiting: bool,
     counts: Arc<Counts>,
@@ -24,11 +25,12 @@ pub(crate) struct Patient {
 
 impl Patient {
     /// A connection that holds its place among those that are served until it is closed.
-    pub(crate) fn new(stream: TcpStream, counts: Arc<Counts>, place: OwnedSemaphorePermit) -> Self {
+    pub(crate) fn new(stream: TcpStream, patience: Duration, counts: Arc<Counts>, place: OwnedSemaphorePermit) -> Self {
         counts.connections.add(1);
         Self {
             stream,
-            waiting: Box::pin(sleep(PATIENCE)),
+            patience,
+            waiting: Box::pin(sleep(patience)),
             is_waiting: false,
             counts,
             _place: place,
@@ -43,7 +45,8 @@ impl Patient {
         }
         if !self.is_waiting {
             self.is_waiting = true;
-            self.waiting.as_mut().reset(Instant::now() + PATIENCE);
+            let until = Instant::now() + self.patience;
+            self.waiting.as_mut().reset(until);
         }
         match self.waiting.as_mut().poll(context) {
             Poll::Pending => Poll::Pending,
@@ -94,6 +97,3 @@ impl AsyncWrite for Patient {
         Pin::new(&mut self.stream).poll_shutdown(cx)
     }
 }
-
-/// How long a connection may take nothing.
-pub(crate) const PATIENCE: Duration = Duration::from_secs(10);

@@ -4,11 +4,9 @@ use crate::channel::{self, Group};
 use posewire_motion::{Joint, Section, Segment, SegmentKind, Skeleton, Subject};
 use serde::Serialize;
 
-/// The scene, as `GET /api/scene` and the first message of the socket have it.
+/// The scene, as `GET /api/scene` has it, and with a type the first message of the socket.
 #[derive(Serialize)]
 pub(crate) struct Scene<'a> {
-    #[serde(rename = "type", skip_serializing_if = "Option::is_none")]
-    kind: Option<&'static str>,
     posewire: &'static str,
     mode: &'static str,
     recorder: bool,
@@ -21,7 +19,6 @@ impl<'a> Scene<'a> {
     /// A scene without takes, which are not live.
     pub(crate) fn live(source: &'a [String], subjects: &'a [SubjectRecord], recorder: bool) -> Self {
         Self {
-            kind: None,
             posewire: env!("CARGO_PKG_VERSION"),
             mode: "live",
             recorder,
@@ -37,14 +34,6 @@ impl<'a> Scene<'a> {
             mode: "takes",
             takes,
             ..Self::live(source, subjects, false)
-        }
-    }
-
-    /// The same as a message of the socket.
-    pub(crate) fn message(self) -> Self {
-        Self {
-            kind: Some("scene"),
-            ..self
         }
     }
 }

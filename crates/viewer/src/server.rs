@@ -28,16 +28,19 @@ pub struct Options {
     pub listen: SocketAddr,
     /// Whether pages of this machine need a token too, as where several people share it.
     pub token: bool,
+    /// How long a connection may take nothing of what is sent to it before it is closed.
+    pub patience: Duration,
     /// What pages may record live streams with.
     pub recorder: Option<Recorder>,
 }
 
 impl Default for Options {
-    /// Port 9780 of this machine alone.
+    /// Port 9780 of this machine alone, ten seconds of patience, no recorder.
     fn default() -> Self {
         Self {
             listen: SocketAddr::from((Ipv4Addr::LOCALHOST, 9780)),
             token: false,
+            patience: Duration::from_secs(10),
             recorder: None,
         }
     }
@@ -66,6 +69,7 @@ impl Server {
         let needs_token = options.token || !address.ip().is_loopback();
         let token = needs_token.then(Token::new).transpose()?;
         let (stop, stopped) = watch::channel(false);
+        let patience = options.patience;
         let (record, recorded) = match &options.recorder {
             Some(recorder) => {
                 let (record, recorded) = watch::channel(recorder.record());
@@ -79,6 +83,7 @@ impl Server {
             counts: Arc::new(Counts::default()),
             recorder: options.recorder.clone(),
             recorded,
+            written: std::sync::Mutex::default(),
             stop: stopped.clone(),
         });
         let runtime = tokio::runtime::Builder::new_current_thread()
@@ -90,7 +95,7 @@ impl Server {
             if let (Some(recorder), Some(record)) = (served.recorder.clone(), record) {
                 runtime.spawn(recorder.watch(record));
             }
-            runtime.block_on(serve(listener, served, stopped));
+            runtime.block_on(serve(listener, served, patience, stopped));
             runtime.shutdown_timeout(GOODBYE);
         });
         Ok(Self {
@@ -142,13 +147,13 @@ impl Drop for Server {
     }
 }
 
-async fn serve(listener: TcpListener, app: Arc<App>, stop: watch::Receiver<bool>) {
+async fn serve(listener: TcpListener, app: Arc<App>, patience: Duration, stop: watch::Receiver<bool>) {
     // A socket that was bound and set up can be listened on.
     let Ok(listener) = tokio::net::TcpListener::from_std(listener) else {
         return;
     };
     let counts = Arc::clone(&app.counts);
-    connection::serve(listener, routes::router(&app), Arc::clone(&counts), stop).await;
+    connection::serve(listener, routes::router(&app), Arc::clone(&counts), patience, stop).await;
     let begun = tokio::time::Instant::now();
     while counts.pages.value() > 0 && begun.elapsed() < GOODBYE {
         tokio::time::sleep(Duration::from_millis(5)).await;

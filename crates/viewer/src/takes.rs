@@ -47,10 +47,9 @@ impl Takes {
         self.all.is_empty()
     }
 
-    /// The scene as JSON; as a message of the socket, it says so.
-    pub(crate) fn scene(&self, is_message: bool) -> String {
+    /// The scene as JSON.
+    pub(crate) fn scene(&self) -> String {
         let scene = Scene::takes(&self.files, &self.subjects, &self.records);
-        let scene = if is_message { scene.message() } else { scene };
         serde_json::to_string(&scene).unwrap_or_default()
     }
 

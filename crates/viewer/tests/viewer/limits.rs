@@ -46,9 +46,33 @@ fn large(sample: u32) -> Frame {
     frame
 }
 
+fn patient(patience: Duration) -> Stage {
+    Stage::with(&Options {
+        listen: ([127, 0, 0, 1], 0).into(),
+        patience,
+        ..Options::default()
+    })
+}
+
+#[test]
+fn a_page_that_reads_nothing_for_long_is_closed() {
+    let mut stage = patient(Duration::from_millis(1));
+    let _stuck = stage.page();
+    let waited = Instant::now();
+    let mut sample = 0;
+    while stage.metric("posewire_viewer_stalled_total") == 0 {
+        sample += 1;
+        stage.show(large(sample));
+        assert!(waited.elapsed() < LONG);
+    }
+    while stage.metric("posewire_viewer_pages") > 0 {
+        assert!(waited.elapsed() < LONG);
+    }
+}
+
 #[test]
 fn a_page_that_reads_nothing_delays_no_other_and_then_gets_the_newest() {
-    let mut stage = Stage::new();
+    let mut stage = patient(Duration::from_hours(1));
     let mut stuck = stage.page();
     let mut other = stage.page();
     other.send(r#"{"type":"rate","hz":120}"#);
