@@ -17,8 +17,10 @@ mod take_name;
 mod writer;
 
 pub(crate) use briefing::Briefing;
+pub(crate) use format::is_continued;
 pub use format::{
-    END, FROM, KIND, NAME, POSES, RAW, RECORDING, REPEATED, SOURCE, SOURCE_RECORD, SUBJECT, SUBJECT_RECORD, TO, WIRE,
+    CONTINUED, END, FROM, KIND, NAME, POSES, RAW, RECORDING, REPEATED, SOURCE, SOURCE_RECORD, SUBJECT, SUBJECT_RECORD,
+    TO, WIRE,
 };
 pub use recover::{Recovered, recover};
 pub use survey::{SenderSurvey, SourceSurvey, SubjectSurvey, Survey};

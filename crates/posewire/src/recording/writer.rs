@@ -250,13 +250,25 @@ impl Writer {
     /// # Errors
     /// As for [`datagram`](Self::datagram), and those of creating a file.
     pub fn flush(&mut self) -> Result<()> {
-        self.write(Part::flush)?;
+        self.hand_over()?;
+        self.split(0)
+    }
+
+    /// Hands everything to the system.
+    pub(crate) fn hand_over(&mut self) -> Result<()> {
+        self.write(Part::flush)
+    }
+
+    /// Begins a new file if this one is long enough. `lost` is for the end of this one, as in [`close`](Self::close).
+    pub(crate) fn split(&mut self, lost: u64) -> Result<()> {
         let limit = self.options.split.unwrap_or(u64::MAX);
-        if self.part.as_ref().is_some_and(|part| part.length() >= limit) {
-            self.close(0)?;
-            self.begin()?;
+        if self.part.as_ref().is_none_or(|part| part.length() < limit) {
+            return Ok(());
         }
-        Ok(())
+        // A file says that it goes on in another only when there is one.
+        let next = self.next_part();
+        self.end(lost, next.is_ok())?;
+        self.begin(next?)
     }
 
     /// Completes the file with its index and sees it onto the disk.
@@ -269,6 +281,11 @@ impl Writer {
 
     /// As [`finish`](Self::finish), and notes how many items were `lost` before they came here.
     pub(crate) fn close(&mut self, lost: u64) -> Result<()> {
+        self.end(lost, false)
+    }
+
+    /// Completes the file, which may be `continued` in another.
+    fn end(&mut self, lost: u64, continued: bool) -> Result<()> {
         let (counts, left_out) = (self.counts, self.descriptions_left_out);
         self.write(|part| {
             let end = [
@@ -277,6 +294,7 @@ impl Writer {
                 ("bytes", counts.bytes.to_string()),
                 ("lost", lost.to_string()),
                 ("descriptions_left_out", left_out.to_string()),
+                (format::CONTINUED, continued.to_string()),
             ];
             part.metadata(format::END, keys(end))
         })?;
@@ -294,8 +312,8 @@ impl Writer {
     }
 
     /// Begins the next file.
-    fn begin(&mut self) -> Result<()> {
-        self.part = Some(self.next_part()?);
+    fn begin(&mut self, part: Part) -> Result<()> {
+        self.part = Some(part);
         self.number += 1;
         self.counts = PartCounts::default();
         self.senders.clear();

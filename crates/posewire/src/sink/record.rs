@@ -239,8 +239,9 @@ impl RecordSink {
     fn flush(&mut self) -> Result<()> {
         self.due = None;
         if let Some(writer) = &mut self.writer {
-            writer.flush()?;
+            writer.hand_over()?;
             self.unflushed = 0;
+            writer.split(self.progress.dropped)?;
             self.syncing.follow(writer);
         }
         self.publish();
@@ -252,7 +253,7 @@ impl RecordSink {
         if let Some(mut writer) = self.writer.take() {
             writer.abandon();
         }
-        self.progress.unwritten += std::mem::take(&mut self.unflushed) + 1;
+        self.progress.unwritten += std::mem::take(&mut self.unflushed);
         self.progress.failure = Some(error.clone());
         self.failure = Some(error);
         self.due = None;
@@ -283,6 +284,7 @@ impl Sink for RecordSink {
 
     fn accept(&mut self, source: SourceId, item: &Item) -> Result<()> {
         if let Err(error) = self.record(source, item) {
+            self.unflushed += u64::from(is_data(item));
             self.fail(error);
         }
         Ok(())

@@ -6,11 +6,13 @@ use posewire::recording::Survey;
 use posewire::remote::{Controlled, PlayingControl, RecordingControl, Remote};
 use posewire::sink::{MxtpSink, TakesSink};
 use posewire::stop::Stop;
-use posewire::{Session, Source};
+use posewire::{Datagram, Error, Item, Session, Sink, Source, SourceId, Wire};
+use posewire_motion::Stamp;
 use posewire_mxtp::Header;
 use std::fs;
 use std::net::{SocketAddr, UdpSocket};
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver as Heard};
 
 /// A program that controls another.
@@ -324,4 +326,44 @@ fn a_take_that_cannot_be_written_is_refused_and_the_session_goes_on() {
     stop.stop();
     session.wait().unwrap();
     assert!(Survey::of(&takes_into.join("walk.mcap")).unwrap().complete);
+}
+
+#[test]
+fn a_take_that_could_not_be_completed_is_told_of_at_the_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let takes_folder = folder.path().join("takes");
+    fs::create_dir(&takes_folder).unwrap();
+    // A new file with every flush, for which there is no folder soon.
+    let endpoint: Endpoint = "mxtp://127.0.0.1:9763".parse().unwrap();
+    let mut sink = TakesSink::new(&takes_folder, &[endpoint], Some(1));
+    let takes = sink.takes();
+    takes.begin(&"walk".parse().unwrap()).unwrap();
+    fs::remove_dir_all(&takes_folder).unwrap();
+    for _ in 0..2 {
+        let item = Item::Datagram(datagram());
+        sink.accept(SourceId(0), &item).unwrap();
+        sink.handle_timeout().unwrap();
+    }
+    sink.finish().unwrap();
+
+    let progress = takes.progress();
+    assert!(progress.recording.is_none());
+    let ended = progress.cut_short.unwrap().recorded;
+    assert!(
+        matches!(ended.failure, Some(Error::Write { .. })),
+        "{:?}",
+        ended.failure
+    );
+    // The first one was in the file when the next one could not be created.
+    assert_eq!((ended.datagrams(), ended.unwritten, progress.lost), (1, 1, 1));
+}
+
+fn datagram() -> Arc<Datagram> {
+    Arc::new(Datagram {
+        wire: Wire::MxtpUdp,
+        from: ([127, 0, 0, 1], 40_000).into(),
+        to: ([127, 0, 0, 1], 9763).into(),
+        received: Stamp(1_700_000_000_000_000_000),
+        bytes: (*b"MXTP02").into(),
+    })
 }

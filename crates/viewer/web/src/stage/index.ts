@@ -13,6 +13,7 @@ import { Floor } from './room/floor';
 import { Lights } from './room/lights';
 import { Sky } from './room/sky';
 import { type Look, LOOKS } from './room/theme';
+import { looksSame } from './same';
 import { drawnBySoftware } from './software';
 import { Tags } from './tags';
 
@@ -102,10 +103,12 @@ export class Stage {
   /** Takes the newest samples; subjects without one stay as they are. */
   update(records: SubjectRecord[]): void {
     for (const record of records) {
+      const before = this.waiting.get(record.id);
+      if (before && looksSame(before, record)) continue;
       this.waiting.set(record.id, record);
       this.performers.get(record.id)?.take(record);
+      this.posesChanged = true;
     }
-    this.posesChanged = true;
   }
 
   setOptions(options: Partial<StageOptions>): void {
