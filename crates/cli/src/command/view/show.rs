@@ -82,6 +82,7 @@ fn options(arguments: &View, recorder: Option<Recorder>) -> Options {
         listen: arguments.listen,
         token: arguments.token,
         recorder,
+        ..Options::default()
     }
 }
 
