@@ -37,8 +37,10 @@ struct Newest {
     noticed: u64,
     plots: Vec<Weak<Mutex<Plot>>>,
     ended: bool,
-    /// Subjects beyond those that are followed.
+    /// Samples of subjects beyond those that are followed.
     refused: u64,
+    /// Items that came faster than they could be taken.
+    dropped: u64,
 }
 
 /// A subject that is live.
@@ -99,6 +101,11 @@ impl Feed {
         }
     }
 
+    /// So many items, since the start, were replaced by newer ones before they were taken.
+    pub(crate) fn set_dropped(&self, dropped: u64) {
+        self.lock().dropped = dropped;
+    }
+
     /// Nothing more will come.
     pub(crate) fn end(&self) {
         self.lock().ended = true;
@@ -146,10 +153,10 @@ impl Feed {
         (newest.notices.iter().skip(skipped).cloned().collect(), newest.noticed)
     }
 
-    /// How many frames there were, and how many subjects found no place.
-    pub(crate) fn counts(&self) -> (u64, u64) {
+    /// How many frames there were, how many of subjects that found no place, and how many items were dropped.
+    pub(crate) fn counts(&self) -> (u64, u64, u64) {
         let newest = self.lock();
-        (newest.frames, newest.refused)
+        (newest.frames, newest.refused, newest.dropped)
     }
 
     /// Writes a tick with a record of each subject that has a newer frame or another state than the page has `seen`.

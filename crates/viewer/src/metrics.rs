@@ -54,7 +54,7 @@ pub(crate) fn text(app: &App) -> String {
 }
 
 fn of_feed(text: &mut Text, feed: &Feed) {
-    let (frames, refused) = feed.counts();
+    let (frames, refused, dropped) = feed.counts();
     text.counter(
         "posewire_viewer_frames_total",
         "Samples that came, of all subjects.",
@@ -64,6 +64,11 @@ fn of_feed(text: &mut Text, feed: &Feed) {
         "posewire_viewer_subjects_refused_total",
         "Samples of subjects beyond 4096.",
         refused,
+    );
+    text.counter(
+        "posewire_viewer_dropped_total",
+        "Items that newer ones replaced before the page's server took them.",
+        dropped,
     );
     let told = feed.statistics();
     let told: Vec<_> = told

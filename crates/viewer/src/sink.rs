@@ -29,6 +29,10 @@ impl Sink for ViewerSink {
         Ok(())
     }
 
+    fn dropped(&mut self, dropped: u64) {
+        self.feed.set_dropped(dropped);
+    }
+
     fn finish(&mut self) -> Result<()> {
         self.feed.end();
         Ok(())
