@@ -23,7 +23,7 @@
 //! | 12-15 | contacts, a bit each, `u32` |
 //! | 16-23 | the source's clock, s, `f64` |
 //! | 24-27 | age, s since it arrived, `f32`; 0 in takes |
-//! | 28-31 | timecode, s of the day, `f32`, or NaN |
+//! | 28-31 | timecode, ms of the day, `u32`; 4294967295 for none |
 //! | 32 | 0 live, 1 stale, 2 lost |
 //! | 33 | [`flags`] |
 //! | 34-35 | segments S, `u16` |
@@ -42,7 +42,7 @@
 //! | 8- | the source's clock, s, `f64` x n, then the values, `f32` x n |
 
 use posewire_motion::kinematics::{center_of_mass, segment_positions};
-use posewire_motion::{DQuat, DVec3, Frame};
+use posewire_motion::{DQuat, DVec3, Frame, Timecode};
 
 /// What a record's flags say.
 pub(crate) mod flags {
@@ -96,7 +96,8 @@ pub(crate) fn write_record(id: u32, frame: &Frame, out: &mut Vec<u8>) {
     out.extend(contact_bits(&frame.contacts).to_le_bytes());
     out.extend(frame.time.as_secs_f64().to_le_bytes());
     out.extend(0_f32.to_le_bytes());
-    out.extend(seconds_of_day(frame).to_le_bytes());
+    let timecode = frame.timecode.map_or(NO_TIMECODE, Timecode::milliseconds);
+    out.extend(timecode.to_le_bytes());
     out.extend([State::Live as u8, body.flags]);
     out.extend((body.segments as u16).to_le_bytes());
     out.extend((markers as u16).to_le_bytes());
@@ -177,11 +178,6 @@ fn contact_bits(contacts: &[bool]) -> u32 {
     set.fold(0, |bits, (place, _)| bits | 1 << place)
 }
 
-fn seconds_of_day(frame: &Frame) -> f32 {
-    let seconds = frame.timecode.map(|code| f64::from(code.milliseconds()) / 1000.0);
-    seconds.map_or(f32::NAN, |seconds| seconds as f32)
-}
-
 /// As many vectors as there are segments, whatever the list has.
 fn write_vectors(list: &[Option<DVec3>], count: usize, out: &mut Vec<u8>) {
     for place in 0..count {
@@ -203,6 +199,7 @@ fn write_quaternions(list: &[Option<DQuat>], count: usize, out: &mut Vec<u8>) {
 }
 
 const VERSION: u8 = 1;
+const NO_TIMECODE: u32 = u32::MAX;
 
 #[cfg(test)]
 mod tests;

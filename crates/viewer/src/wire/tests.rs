@@ -34,7 +34,7 @@ fn what_was_not_sent_is_not_a_number() {
     assert_eq!((record.position.len(), record.orientation.len()), (64, 64));
     assert!(record.position.iter().flatten().all(|value| value.is_nan()));
     assert!(record.orientation.iter().flatten().all(|value| value.is_nan()));
-    assert!(record.center.iter().all(|value| value.is_nan()) && record.timecode_s.is_nan());
+    assert!(record.center.iter().all(|value| value.is_nan()) && record.timecode_ms.is_none());
 }
 
 #[test]
@@ -137,6 +137,7 @@ proptest! {
         let markers = frame.markers.iter().map(|marker| marker.position.unwrap_or(DVec3::NAN).as_vec3().to_array());
         prop_assert_eq!(record.sample, frame.sample);
         prop_assert_eq!(record.time_s, frame.time.as_secs_f64());
+        prop_assert_eq!(record.timecode_ms, frame.timecode.map(Timecode::milliseconds));
         prop_assert_eq!(bits(&record.position), bits(&positions));
         prop_assert_eq!(bits(&record.markers), bits(&markers.collect::<Vec<_>>()));
         for (turned, read) in frame.orientation.iter().zip(&record.orientation) {

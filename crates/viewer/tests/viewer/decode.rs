@@ -16,7 +16,7 @@ pub(crate) struct Record {
     pub(crate) contacts: u32,
     pub(crate) time_s: f64,
     pub(crate) age_s: f32,
-    pub(crate) timecode_s: f32,
+    pub(crate) timecode_ms: Option<u32>,
     pub(crate) state: u8,
     pub(crate) flags: u8,
     pub(crate) position: Vec<[f32; 3]>,
@@ -95,7 +95,7 @@ fn record(bytes: &[u8]) -> Option<Record> {
     let contacts = u32::from_le_bytes(input.take()?);
     let time_s = f64::from_le_bytes(input.take()?);
     let age_s = f32::from_le_bytes(input.take()?);
-    let timecode_s = f32::from_le_bytes(input.take()?);
+    let timecode_ms = Some(u32::from_le_bytes(input.take()?)).filter(|&code| code != u32::MAX);
     let [state, flags] = input.take()?;
     let segments = usize::from(u16::from_le_bytes(input.take()?));
     let markers = usize::from(u16::from_le_bytes(input.take()?));
@@ -109,7 +109,7 @@ fn record(bytes: &[u8]) -> Option<Record> {
         contacts,
         time_s,
         age_s,
-        timecode_s,
+        timecode_ms,
         state,
         flags,
         position: input.lists(segments)?,

@@ -9,8 +9,8 @@ describe('records', () => {
     expect([...first!.orientation]).toEqual([6, 7, 8, 9, 10, 11, 12, 13]);
     expect([...first!.centerOfMass]).toEqual([14, 15, 16]);
     expect([...first!.markers]).toEqual([17, 18, 19]);
-    expect(first!.timecode).toBeNaN();
-    expect(second).toMatchObject({ id: 8, sample: 1208 });
+    expect(first!.timecode).toBe(86_399.999);
+    expect(second).toMatchObject({ id: 8, sample: 1208, timecode: NaN });
     expect(second!.position).toHaveLength(0);
   });
 
@@ -86,7 +86,7 @@ function record(id: number, segments: number, markers: number): ArrayBuffer {
   [view.byteLength, id, 1200 + id, 5].forEach((value, place) => view.setUint32(4 * place, value, true));
   view.setFloat64(16, 12.5, true);
   view.setFloat32(24, 0.25, true);
-  view.setFloat32(28, NaN, true);
+  view.setUint32(28, id === 7 ? 86_399_999 : 0xffff_ffff, true);
   view.setUint8(32, 1);
   view.setUint8(33, 19);
   view.setUint16(34, segments, true);

@@ -100,7 +100,7 @@ function decodeRecord(view: DataView, at: number): [SubjectRecord, number] {
     contacts: view.getUint32(at + 12, true),
     time: view.getFloat64(at + 16, true),
     age: view.getFloat32(at + 24, true),
-    timecode: view.getFloat32(at + 28, true),
+    timecode: timecode(view.getUint32(at + 28, true)),
     state: Math.min(view.getUint8(at + 32), 2) as State,
     flags: view.getUint8(at + 33),
     position: floats(3 * segments),
@@ -111,6 +111,11 @@ function decodeRecord(view: DataView, at: number): [SubjectRecord, number] {
   return [record, length];
 }
 
+/** Milliseconds of the day as seconds, or NaN where there is none. */
+function timecode(told: number): number {
+  return told === NO_TIMECODE ? NaN : told / 1000;
+}
+
 function need(view: DataView, at: number, bytes: number): void {
   const left = view.byteLength - at;
   if (left < bytes) throw new MalformedMessage(`${bytes} bytes expected at ${at}, ${left} found`);
@@ -118,3 +123,4 @@ function need(view: DataView, at: number, bytes: number): void {
 
 const TICK_HEAD = 16;
 const RECORD_HEAD = 40;
+const NO_TIMECODE = 0xffff_ffff;
