@@ -107,7 +107,11 @@ fn start_sink(mut sink: Box<dyn Sink>, stop: Stop) -> (Feeder, JoinHandle<Result
             stop.stop();
         }
         let finished = sink.finish();
-        let lost = if policy == Policy::Lossless { consumer.dropped() } else { 0 };
+        let lost = if policy == Policy::Lossless {
+            consumer.dropped()
+        } else {
+            0
+        };
         fed.and(finished).map(|()| lost)
     });
     (Feeder { producer, wants }, thread)
