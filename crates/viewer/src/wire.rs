@@ -42,7 +42,10 @@
 //! | 8- | the source's clock, s, `f64` x n, then the values, `f32` x n |
 
 use posewire_motion::kinematics::{center_of_mass, segment_positions};
-use posewire_motion::{DQuat, DVec3, Frame, Timecode};
+use posewire_motion::standard::MAX_PROPS;
+use posewire_motion::{DQuat, DVec3, Frame, Skeleton, Timecode};
+use std::borrow::Cow;
+use std::sync::LazyLock;
 
 /// What a record's flags say.
 pub(crate) mod flags {
@@ -166,11 +169,25 @@ impl Body {
 
 /// Where the segments are of a body whose root stays where it is in the null pose.
 fn in_place(frame: &Frame) -> Vec<Option<DVec3>> {
-    let skeleton = &frame.subject.skeleton;
+    let skeleton = with_sizes(&frame.subject.skeleton);
     let root = skeleton.segments.first().and_then(|segment| segment.origin);
     let mut positions = Vec::new();
-    segment_positions(skeleton, root.unwrap_or_default(), &frame.orientation, &mut positions);
+    segment_positions(&skeleton, root.unwrap_or_default(), &frame.orientation, &mut positions);
     positions
+}
+
+/// The skeleton, or one with the sizes of a nominal adult when nothing has told any.
+fn with_sizes(skeleton: &Skeleton) -> Cow<'_, Skeleton> {
+    static NOMINAL: LazyLock<Skeleton> = LazyLock::new(|| Skeleton::standard(MAX_PROPS, true));
+    if skeleton.segments.iter().any(|segment| segment.origin.is_some()) {
+        return Cow::Borrowed(skeleton);
+    }
+    let mut sized = skeleton.clone();
+    for segment in &mut sized.segments {
+        let nominal = NOMINAL.segment(&segment.name);
+        segment.origin = nominal.and_then(|place| NOMINAL.segments[place].origin);
+    }
+    Cow::Owned(sized)
 }
 
 fn contact_bits(contacts: &[bool]) -> u32 {

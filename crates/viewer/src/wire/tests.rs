@@ -62,6 +62,20 @@ fn orientations_alone_turn_in_place() {
 }
 
 #[test]
+fn orientations_of_a_body_of_unknown_size_turn_a_nominal_adult() {
+    let mut frame = frame();
+    frame.orientation = vec![Some(DQuat::IDENTITY); 64];
+    let described = written(&frame);
+    let mut skeleton = Skeleton::standard(1, true);
+    skeleton.segments.iter_mut().for_each(|segment| segment.origin = None);
+    frame.subject = Arc::new(Subject::new("Ada", skeleton));
+    let record = written(&frame);
+    assert_eq!(record.flags, flags::ORIENTATIONS | flags::IN_PLACE);
+    assert_eq!(bits(&record.position), bits(&described.position));
+    assert!(record.position[6][2] > 1.4);
+}
+
+#[test]
 fn a_centre_of_mass_of_ours_says_so() {
     let mut frame = frame();
     frame.orientation = vec![Some(DQuat::IDENTITY); 64];

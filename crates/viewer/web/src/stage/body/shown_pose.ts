@@ -36,10 +36,7 @@ export class ShownPose {
   /** Takes a sample in. True when it showed another null pose than was known, so that bodies must be built anew. */
   take(record: SubjectRecord): boolean {
     const turns = record.orientation.slice();
-    const position =
-      record.flags & Flag.InPlace
-        ? inPlace(this.segments, this.nullPose, rooted(record.position), turns, this.aside)
-        : record.position;
+    const position = record.flags & Flag.InPlace ? inPlace(record.position, this.aside) : record.position;
     this.turned = turns.some(Number.isFinite);
     const grown = this.observe(position, turns);
     this.inference.fill(position, turns);
@@ -76,12 +73,6 @@ export class ShownPose {
     this.inference = new Inference(this.segments, observed);
     return true;
   }
-}
-
-/** Without a root that stands on nothing: a server that knows no scale has the root alone, at the origin. */
-function rooted(position: Float32Array): Float32Array {
-  const alone = position.subarray(3).every(Number.isNaN);
-  return alone ? new Float32Array(position.length).fill(NaN) : position;
 }
 
 const OBSERVE_EVERY = 30;
