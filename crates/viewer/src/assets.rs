@@ -1,12 +1,10 @@
 //! The page itself, which is part of the program.
 
-use axum::body::Body;
 use axum::http::HeaderValue;
 use axum::http::header::{
     CACHE_CONTROL, CONTENT_SECURITY_POLICY, CONTENT_TYPE, HeaderName, REFERRER_POLICY, X_CONTENT_TYPE_OPTIONS,
 };
 use axum::response::{IntoResponse, Response};
-use std::borrow::Cow;
 
 /// A file of the page: its path below the root, and its bytes.
 type Asset = (&'static str, &'static [u8]);
@@ -29,7 +27,7 @@ pub(crate) fn asset(path: &str) -> Option<Response> {
         "no-cache"
     };
     let headers = [(CONTENT_TYPE, media_type(name)), (CACHE_CONTROL, cached)];
-    Some((headers, Body::from(bytes.into_owned())).into_response())
+    Some((headers, bytes).into_response())
 }
 
 /// Gives an answer the headers that keep other sites away from it, and what it loads to this server.
@@ -45,25 +43,9 @@ pub(crate) fn protect(response: &mut Response) {
         .or_insert(HeaderValue::from_static("no-store"));
 }
 
-#[cfg(not(debug_assertions))]
-fn bytes(name: &str) -> Option<Cow<'static, [u8]>> {
-    embedded(name)
-}
-
-/// While the page is worked on, it can be served from a folder instead.
-#[cfg(debug_assertions)]
-fn bytes(name: &str) -> Option<Cow<'static, [u8]>> {
-    let Some(folder) = std::env::var_os("POSEWIRE_WEB_DIR") else {
-        return embedded(name);
-    };
-    let is_plain = name.split('/').all(|part| !part.is_empty() && !part.starts_with('.'));
-    let path = std::path::PathBuf::from(folder).join(name);
-    is_plain.then(|| std::fs::read(path).ok()).flatten().map(Cow::Owned)
-}
-
-fn embedded(name: &str) -> Option<Cow<'static, [u8]>> {
+fn bytes(name: &str) -> Option<&'static [u8]> {
     let found = ASSETS.iter().find(|(known, _)| *known == name)?;
-    Some(Cow::Borrowed(found.1))
+    Some(found.1)
 }
 
 fn media_type(name: &str) -> &'static str {
@@ -85,8 +67,7 @@ const HTML: &str = "text/html; charset=utf-8";
 const MISSING: &str = "<!doctype html><meta charset=utf-8><title>posewire</title><p>This build of posewire is without its \
     page: install Node.js 20 or newer, then run <code>cargo clean -p posewire-viewer</code> and build again.";
 /// Everything from this server, nothing from elsewhere, and no code made of text.
-const POLICY: &str = "default-src 'self'; img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'; \
-    worker-src 'self' blob:; connect-src 'self'; object-src 'none'; base-uri 'none'; form-action 'none'; \
-    frame-ancestors 'none'";
+const POLICY: &str =
+    "default-src 'self'; object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 const RESOURCE_POLICY: HeaderName = HeaderName::from_static("cross-origin-resource-policy");
 const OPENER_POLICY: HeaderName = HeaderName::from_static("cross-origin-opener-policy");

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { assertQuiet, browser, open, waitForStates } from './lib/page.mjs';
+import { assertQuiet, beside, browser, open, waitForStates } from './lib/page.mjs';
 import { until, view } from './lib/program.mjs';
 
 test('a screenshot is a picture of the stage', async (context) => {
@@ -15,7 +15,7 @@ test('a screenshot is a picture of the stage', async (context) => {
   const png = readFileSync(await download.path());
   assert.equal(png.subarray(1, 4).toString(), 'PNG');
   const size = { width: png.readUInt32BE(16), height: png.readUInt32BE(20) };
-  const colors = await tab.evaluate(colorsOf, png.toString('base64'));
+  const colors = await beside(tab, colorsOf, png.toString('base64'));
   assert.ok(size.width > 300 && size.height > 200, JSON.stringify(size));
   assert.ok(colors > 200, `a picture of ${colors} colours`);
   assertQuiet(tab);

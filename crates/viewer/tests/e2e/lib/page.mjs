@@ -62,7 +62,7 @@ export async function picture(tab, name) {
 /** Keeps a picture as WebP, which is a fraction of the PNG's size: the browser is the encoder. */
 export async function smallPicture(tab, name) {
   const png = (await tab.screenshot()).toString('base64');
-  const webp = await tab.evaluate(async (data) => {
+  const webp = await beside(tab, async (data) => {
     const image = new Image();
     image.src = `data:image/png;base64,${data}`;
     await image.decode();
@@ -72,6 +72,14 @@ export async function smallPicture(tab, name) {
   }, png);
   mkdirSync(PICTURES, { recursive: true });
   writeFileSync(path.join(PICTURES, `${name}.webp`), Buffer.from(webp, 'base64'));
+}
+
+/** Runs a function with a picture's data on an empty page: the page itself may load nothing that is made of text. */
+export async function beside(tab, work, data) {
+  const empty = await tab.context().browser().newPage();
+  const result = await empty.evaluate(work, data);
+  await empty.close();
+  return result;
 }
 
 /** Waits until the performers' states are these, in their order. */
