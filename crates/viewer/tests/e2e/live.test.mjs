@@ -83,6 +83,32 @@ test('losses are counted, shown, and said where they happened', async (context) 
   assertQuiet(tab);
 });
 
+test('each type of pose is drawn as far as it allows, and says what it lacks', async (context) => {
+  const types = ['01', '02', '05', '21', '22'];
+  const server = await view(context, Array(types.length).fill('mxtp://127.0.0.1:0'));
+  const shown = server.lines.filter((line) => line.startsWith('showing '));
+  types.forEach((type, place) => {
+    const endpoint = shown[place].slice('showing '.length);
+    start(context, 'stream', 'synthetic:walk?rate=60', '--types', type, '--to', endpoint);
+  });
+  const tab = await open(await browser(context), server.url);
+  await waitForStates(tab, Array(types.length).fill('LIVE'));
+  const drawn = await tab.evaluate(() => {
+    const { room, stage } = window.posewire;
+    return room.subjects.map(({ id, source }) => [source, [...stage.stats().positions(id)]]);
+  });
+  const noted = await tab.locator('.performer .detail').allTextContents();
+  const notes = ['', '', '', ', positions only', ', orientations only, in place'];
+  const order = drawn.map(([source]) => source);
+  assert.deepEqual(order.toSorted(), [0, 1, 2, 3, 4]);
+  for (const [place, [source, positions]] of drawn.entries()) {
+    assert.ok(positions.length >= 69 && positions.slice(0, 69).every(Number.isFinite), `type ${types[source]}`);
+    assert.equal(noted[place].replace(/^\d+ segments/, ''), notes[source], `type ${types[source]}`);
+  }
+  await picture(tab, 'types');
+  assertQuiet(tab);
+});
+
 test("a NatNet server's skeletons are shown with its latencies", async (context) => {
   const motive = start(context, 'stream', 'synthetic:walk?people=2&rate=60', '--to', 'natnet://127.0.0.1:0?data-port=0');
   const address = /natnet:\/\/127\.0\.0\.1:\d+/.exec(await said(motive, '  to '))[0];
