@@ -3,8 +3,7 @@
 import { h, setText } from '../dom/h';
 import { clock as clockText, timeOfDay } from '../model/format';
 import type { Room } from '../model/room';
-import { State, type SubjectRecord } from '../protocol/types';
-import { nameOf } from './performers';
+import { State, type SubjectRecord, nameOf } from '../protocol/types';
 
 export interface ClockText {
   time: string;

@@ -4,7 +4,7 @@ import { h, setAttribute, setText } from '../dom/h';
 import { icon, setIcon } from '../dom/icons';
 import { hertz, milliseconds } from '../model/format';
 import type { Room } from '../model/room';
-import { Flag, State, type Subject, type SubjectRecord } from '../protocol/types';
+import { Flag, State, type Subject, type SubjectRecord, nameOf } from '../protocol/types';
 
 export interface PerformerActions {
   follow(id: number): void;
@@ -102,10 +102,6 @@ class SmoothAge {
     this.value = Number.isNaN(this.value) ? now : this.value + (now - this.value) * 0.1;
     return milliseconds(this.value);
   }
-}
-
-export function nameOf(subject: Subject): string {
-  return subject.name || `${subject.kind} ${subject.id}`;
 }
 
 function toggle(name: 'follow' | 'shown', label: string, onclick: () => void): HTMLButtonElement {

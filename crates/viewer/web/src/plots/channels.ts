@@ -1,6 +1,6 @@
 /** The channels that can be plotted: their names, and the search among them. */
 
-import type { ChannelGroup, Subject } from '../protocol/types';
+import { type ChannelGroup, type Subject, nameOf } from '../protocol/types';
 
 export interface Channel {
   subject: number;
@@ -77,7 +77,7 @@ function* channelsOf(subject: Subject): Generator<Channel> {
 function channel(subject: Subject, group: ChannelGroup, entry: string, axis: string): Channel {
   const { section, unit } = group;
   const name = `${section}/${entry}/${axis}`;
-  return { subject: subject.id, subjectName: subject.name, name, section, entry, axis, unit };
+  return { subject: subject.id, subjectName: nameOf(subject), name, section, entry, axis, unit };
 }
 
 const ANGLES: Record<string, string> = { x: 'abduction', y: 'rotation', z: 'flexion' };

@@ -25,6 +25,8 @@ describe('channels', () => {
     expect(names('bea PELVIS y')).toEqual(['1:position/Pelvis/y']);
     expect(names('joint_angles left abduction')).toEqual(['0:joint_angles/jLeftKnee/x']);
     expect(search(subjects, '', 4)).toHaveLength(4);
+    const nameless = { ...subjects[1], id: 4, name: '', kind: 'person' } as Subject;
+    expect(search([nameless], 'person 4 pelvis', 4)).toHaveLength(3);
   });
 
   it('are found again by their key, and suggested', () => {

@@ -67,6 +67,11 @@ export interface Subject {
   channels: ChannelGroup[];
 }
 
+/** What it is called on the page, also before or without a name of its own. */
+export function nameOf(subject: Subject): string {
+  return subject.name || `${subject.kind} ${subject.id}`;
+}
+
 /** A marker of a take's timeline. */
 export interface TakeMarker {
   frame: number;

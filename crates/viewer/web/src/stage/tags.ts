@@ -1,5 +1,5 @@
 import type { Object3D, PerspectiveCamera } from 'three';
-import { State } from '../protocol/types';
+import { State, nameOf } from '../protocol/types';
 import type { Performer } from './performer';
 import type { Look } from './room/theme';
 import { Tag, type TagText } from './tag';
@@ -52,7 +52,7 @@ export class Tags {
 
 function text(performer: Performer): TagText {
   const { subject, color, state } = performer;
-  return { name: subject.name, note: performer.note(), state: STATES[state], color };
+  return { name: nameOf(subject), note: performer.note(), state: STATES[state], color };
 }
 
 const STATES = { [State.Live]: '', [State.Stale]: 'STALE', [State.Lost]: 'LOST' } as const;

@@ -2,7 +2,7 @@
 
 import type { App } from '../app';
 import { byId } from '../dom/h';
-import { nameOf } from '../panel/performers';
+import { nameOf } from '../protocol/types';
 import type { Preset } from '../stage';
 import { savePicture } from './screenshot';
 import { type SharedView, readHash, writeHash } from './share';
