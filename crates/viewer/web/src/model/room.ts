@@ -4,6 +4,7 @@ import type { Connection } from '../protocol/live';
 import type { Recorder, Statistics } from '../protocol/statistics';
 import { type Scene, State, type Subject, type SubjectRecord, type Take } from '../protocol/types';
 import { StatisticsHistory } from './history';
+import { Sent } from './sent';
 
 export interface Notice {
   /** When it came, milliseconds since 1970. */
@@ -17,6 +18,7 @@ export class Room {
   scene: Scene | null = null;
   /** The newest sample of each subject that has one. */
   readonly records = new Map<number, SubjectRecord>();
+  private readonly sent = new Map<number, Sent>();
   readonly hidden = new Set<number>();
   followed: number | null = null;
   /** Goes up with each change of who is there, or of who is hidden or followed. */
@@ -41,14 +43,29 @@ export class Room {
     this.refusal = null;
     this.ended = false;
     const ids = new Set(scene.subjects.map((subject) => subject.id));
-    for (const id of this.records.keys()) if (!ids.has(id)) this.records.delete(id);
+    for (const held of [this.records, this.sent]) for (const id of held.keys()) if (!ids.has(id)) held.delete(id);
     for (const id of this.hidden) if (!ids.has(id)) this.hidden.delete(id);
     if (this.followed !== null && !ids.has(this.followed)) this.followed = null;
     this.revision++;
   }
 
   take(records: SubjectRecord[]): void {
-    for (const record of records) this.records.set(record.id, record);
+    for (const record of records) {
+      this.records.set(record.id, record);
+      const sent = this.sent.get(record.id) ?? new Sent();
+      sent.take(record);
+      this.sent.set(record.id, sent);
+    }
+  }
+
+  /** What a subject sends, as the bits of `Flag`; null before its first sample. */
+  flags(id: number): number | null {
+    return this.sent.get(id)?.flags() ?? null;
+  }
+
+  /** The timecode of a subject's newest sample in seconds of the day; NaN when it sends none. */
+  timecode(id: number): number {
+    return this.sent.get(id)?.timeOfDay() ?? NaN;
   }
 
   count(statistics: Statistics): void {

@@ -3,7 +3,7 @@
 import { h, setText } from '../dom/h';
 import { clock as clockText, timeOfDay } from '../model/format';
 import type { Room } from '../model/room';
-import { State, type SubjectRecord, nameOf } from '../protocol/types';
+import { State, nameOf } from '../protocol/types';
 
 export interface ClockText {
   time: string;
@@ -28,15 +28,12 @@ function liveText(room: Room): ClockText | null {
   const records = room.subjects.flatMap((subject) => room.records.get(subject.id) ?? []);
   const followed = records.find((record) => record.id === room.followed);
   const live = records.filter((record) => record.state === State.Live);
-  const record = followed ?? live.find(hasTimecode) ?? live[0] ?? records[0];
+  const record = followed ?? live.find(({ id }) => Number.isFinite(room.timecode(id))) ?? live[0] ?? records[0];
   if (!record) return null;
   const subject = room.subject(record.id);
   const whose = subject && room.subjects.length > 1 ? ` of ${nameOf(subject)}` : '';
   const sample = `sample ${record.sample.toLocaleString('en')}`;
-  if (hasTimecode(record)) return { time: timeOfDay(record.timecode), label: `Timecode${whose}, UTC, ${sample}` };
+  const timecode = room.timecode(record.id);
+  if (Number.isFinite(timecode)) return { time: timeOfDay(timecode), label: `Timecode${whose}, UTC, ${sample}` };
   return { time: clockText(record.time, 2), label: `Source clock${whose}, ${sample}` };
-}
-
-function hasTimecode(record: SubjectRecord): boolean {
-  return Number.isFinite(record.timecode);
 }

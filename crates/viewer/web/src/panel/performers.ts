@@ -134,7 +134,7 @@ const STATES: Record<StateName, string> = {
 function detail(room: Room, subject: Subject, record: SubjectRecord | undefined): string {
   const file = room.takes.length > 1 ? (room.takeOf(subject.id)?.file ?? '') : '';
   const parts = [file, size(subject, record)];
-  const flags = record?.flags ?? Flag.Positions | Flag.Orientations;
+  const flags = room.flags(subject.id) ?? Flag.Positions | Flag.Orientations;
   if (flags & Flag.InPlace) parts.push('orientations only, in place');
   else if (subject.segments.length > 0 && !(flags & Flag.Orientations)) parts.push('positions only');
   return parts.filter(Boolean).join(', ');

@@ -25,9 +25,9 @@ test('the tag says what a stream lacks', () => {
   expect(performer.note()).toBe('not tracked yet');
   performer.take(record);
   expect(performer.note()).toBe('');
-  performer.take({ ...record, flags: 1 });
+  performer.take({ ...record, time: record.time + 10, flags: 1 });
   expect(performer.note()).toBe('positions only');
-  performer.take({ ...record, flags: 2 | 4 });
+  performer.take({ ...record, time: record.time + 20, flags: 2 | 4 });
   expect(performer.note()).toBe('orientations only, in place');
   const position = record.position.slice().fill(NaN, 0, 3);
   performer.take({ ...record, position });

@@ -1,4 +1,5 @@
 import { type Color, Quaternion, Vector3 } from 'three';
+import { Sent } from '../model/sent';
 import { Flag, State, type Subject, type SubjectRecord } from '../protocol/types';
 import { bodyParts } from './body';
 import { describedNullPose } from './body/null_pose';
@@ -16,6 +17,7 @@ export class Performer {
   readonly trails: Map<number, Trail>;
   parts: Part[];
   record: SubjectRecord | null = null;
+  private readonly sent = new Sent();
 
   constructor(readonly subject: Subject) {
     this.color = subjectColor(subject);
@@ -27,6 +29,7 @@ export class Performer {
 
   take(record: SubjectRecord): void {
     this.record = record;
+    this.sent.take(record);
     if (this.pose.take(record)) this.parts = bodyParts(this.subject, this.pose.nullPose);
     for (const [place, trail] of this.trails) {
       if (this.pose.seen[place] === Seen.Now) trail.add(...this.place(place), record.time);
@@ -65,6 +68,24 @@ export class Performer {
     return this.middle();
   }
 
+  /** Points around where it is and may be with its next steps. */
+  room(): Vector3[] {
+    const outline = this.outline();
+    const centre = this.centre();
+    if (!centre) return outline;
+    const beside = outline.flatMap(({ z }) =>
+      STEP.flatMap((dx) => STEP.map((dy) => new Vector3(centre.x + dx, centre.y + dy, z))),
+    );
+    return [...outline, ...beside];
+  }
+
+  /** The way its front looks, as an angle about the vertical from +X; 0 while nobody knows. */
+  facing(): number {
+    const forward = new Vector3(1, 0, 0).applyQuaternion(this.turn(this.roles?.pelvis ?? 0));
+    const level = Math.hypot(forward.x, forward.y);
+    return level > 0.2 ? Math.atan2(forward.y, forward.x) : 0;
+  }
+
   /** The place over the highest of it, for its name. */
   top(): Vector3 | null {
     const head = this.roles?.head ?? -1;
@@ -83,7 +104,7 @@ export class Performer {
 
   /** What the tag says under the name. */
   note(): string {
-    const flags = this.record?.flags ?? 0;
+    const flags = this.sent.flags();
     const never = this.pose.count(Seen.Never);
     if (never > 0 && never === this.pose.seen.length) return 'not tracked yet';
     const notes = [];
@@ -111,6 +132,9 @@ export class Performer {
     return points;
   }
 }
+
+/** Metres to each side of a performer that are its room. */
+const STEP = [-0.5, 0.5];
 
 /** Metres between subjects of which nobody knows where they are. */
 const BERTH = 1.2;
