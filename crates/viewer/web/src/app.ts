@@ -72,6 +72,15 @@ export class App {
   /** Shows what is known now, everywhere. */
   refresh(): void {
     for (const refresh of this.refreshes) refresh();
+    this.coverStage();
+  }
+
+  /** Clock, names and tools lie over the stage: nobody is to stand under them. */
+  private coverStage(): void {
+    const [watch, tools] = [byId('clock'), byId('tools')];
+    const height = this.stage.canvas.clientHeight;
+    const top = (watch.hidden ? 0 : watch.offsetTop + watch.offsetHeight) + NAMES;
+    this.stage.cover(Math.min(top, height / 3), Math.min(height - tools.offsetTop + 6, height / 4));
   }
 
   /** The theme has changed: what is drawn rather than styled is drawn anew. */
@@ -218,6 +227,9 @@ export class App {
     return { time: timeOfDay(start + playhead.position - leading.start_s, 3), label: `${label}, timecode, UTC` };
   }
 }
+
+/** Pixels that the names over heads take. */
+const NAMES = 46;
 
 /** Milliseconds between two drawings of plots: 15 a second are enough for a line that rolls. */
 const PLOT_INTERVAL = 66;

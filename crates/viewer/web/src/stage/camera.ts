@@ -9,6 +9,9 @@ export class Eye {
   private readonly controls: OrbitControls;
   private flight: Flight | null = null;
   private along: Vector3 | null = null;
+  /** The picture's size and how much of it lies under other things above and below, CSS pixels. */
+  private picture: Picture = { width: 1, height: 1, top: 0, bottom: 0 };
+  private held: Vector3 | null = null;
   /** Whether somebody chose a view, so that none is chosen for them any more. */
   chosen = false;
 
@@ -25,15 +28,22 @@ export class Eye {
     this.controls.zoomToCursor = true;
     this.controls.addEventListener('change', onChange);
     this.controls.addEventListener('start', () => {
-      this.chosen = true;
+      this.held = this.offset();
       this.flight = null;
+    });
+    this.controls.addEventListener('end', () => {
+      if (this.held && this.held.distanceTo(this.offset()) > 1e-4) this.chosen = true;
+      this.held = null;
     });
     this.controls.update();
   }
 
-  resize(width: number, height: number): void {
+  /** What is looked at lies in the middle of the part of the picture that nothing covers. */
+  resize(picture: Picture): void {
+    this.picture = picture;
+    const { width, height, top, bottom } = picture;
     this.camera.aspect = width / Math.max(height, 1);
-    this.camera.updateProjectionMatrix();
+    this.camera.setViewOffset(width, height, 0, (bottom - top) / 2, width, height);
   }
 
   /** One step of time. `goal` is where the followed performer is. True while the view is on its way. */
@@ -47,29 +57,31 @@ export class Eye {
   /** Begins to go along with whoever is at `goal`, or stops to. */
   follow(goal: Vector3 | null): void {
     this.along = goal?.clone() ?? null;
-    if (goal) this.flyTo(goal, this.camera.position.clone().sub(this.controls.target).add(goal));
   }
 
-  /** Looks at points from a side, so that all are seen. `sudden` leaves out the way there. */
-  look(preset: Preset, points: Vector3[], sudden = calm()): void {
-    const { fov, aspect } = this.camera;
-    const direction = preset === 'free' ? bestDirection(points, FREE, fov, aspect) : DIRECTIONS[preset];
-    const { target, distance } = fit(points, direction, fov, aspect);
-    this.flyTo(target, target.clone().addScaledVector(direction, distance), sudden);
+  /** Brings points into the middle, as large as can be, from the side where it is. */
+  centre(points: Vector3[], seconds = FLIGHT): void {
+    this.frame(points, this.offset().normalize(), calm(), seconds);
   }
 
-  /** Whether a point is in the picture, and not at its very edge. */
+  /** Looks at points from a side of what faces so many radians from +X, so that all are seen. `sudden` leaves out the way. */
+  look(preset: Preset, points: Vector3[], facing: number, sudden = calm()): void {
+    const sides = SIDES[preset].map((side) => side.clone().applyAxisAngle(this.camera.up, facing));
+    const { fov, aspect } = this.lens();
+    this.frame(points, bestDirection(points, sides, fov, aspect), sudden);
+  }
+
+  /** Whether a point is in the picture, and under nothing that covers it. */
   sees(point: Vector3): boolean {
     const { x, y, z } = point.clone().project(this.camera);
-    return Math.abs(x) < 0.97 && Math.abs(y) < 0.97 && z < 1;
+    const { height, top, bottom } = this.picture;
+    const [highest, lowest] = [1 - top / height, (2 * bottom) / height - 1];
+    return Math.abs(x) < 0.98 && y < highest && y > lowest && z < 1;
   }
 
   /** Moves so far, from the same side and without haste, that all points are seen again. */
   widen(points: Vector3[]): void {
-    if (this.flight) return;
-    const direction = this.camera.position.clone().sub(this.controls.target).normalize();
-    const { target, distance } = fit(points, direction, this.camera.fov, this.camera.aspect);
-    this.flyTo(target, target.clone().addScaledVector(direction, distance), calm(), 3 * FLIGHT);
+    if (!this.flight && !this.held) this.centre(points, 2 * FLIGHT);
   }
 
   view(): Omit<ViewState, 'follow'> {
@@ -88,6 +100,24 @@ export class Eye {
 
   dispose(): void {
     this.controls.dispose();
+  }
+
+  private offset(): Vector3 {
+    return this.camera.position.clone().sub(this.controls.target);
+  }
+
+  private frame(points: Vector3[], direction: Vector3, sudden: boolean, seconds = FLIGHT): void {
+    const { fov, aspect } = this.lens();
+    const { target, distance } = fit(points, direction, fov, aspect);
+    this.flyTo(target, target.clone().addScaledVector(direction, distance), sudden, seconds);
+  }
+
+  /** The lens of the part of the picture that nothing covers. */
+  private lens(): { fov: number; aspect: number } {
+    const { width, height, top, bottom } = this.picture;
+    const free = Math.max(height - top - bottom, height / 3);
+    const slope = Math.tan(MathUtils.degToRad(this.camera.fov / 2)) * (free / height);
+    return { fov: MathUtils.radToDeg(2 * Math.atan(slope)), aspect: width / free };
   }
 
   private flyTo(target: Vector3, position: Vector3, sudden = calm(), seconds = FLIGHT): void {
@@ -121,7 +151,7 @@ export class Eye {
       this.along = goal?.clone() ?? null;
       return false;
     }
-    const share = 1 - Math.exp(-seconds * 7);
+    const share = 1 - Math.exp(-seconds * 20);
     const step = goal
       .clone()
       .sub(this.along)
@@ -132,6 +162,14 @@ export class Eye {
     }
     return true;
   }
+}
+
+/** A picture and how much of it is covered above and below, CSS pixels. */
+export interface Picture {
+  width: number;
+  height: number;
+  top: number;
+  bottom: number;
 }
 
 interface Flight {
@@ -146,18 +184,22 @@ interface Flight {
 /** Seconds from one view to another. */
 const FLIGHT = 0.55;
 
-/** From what is looked at to the eye. From above, +X is up on the screen. */
-const DIRECTIONS: Record<Exclude<Preset, 'free'>, Vector3> = {
-  front: new Vector3(1, 0, 0.16).normalize(),
-  side: new Vector3(0, -1, 0.16).normalize(),
-  top: new Vector3(-0.002, 0, 1).normalize(),
-};
-
-/** From ahead and a little above, the likeliest to please first. */
-const FREE = [-38, 38, -52, 52, 0].map((degrees) => {
+/** From what is looked at to the eye, `degrees` from ahead and so steep. */
+function from(degrees: number, steep: number): Vector3 {
   const angle = MathUtils.degToRad(degrees);
-  return new Vector3(Math.cos(angle), Math.sin(angle), 0.3).normalize();
-});
+  return new Vector3(Math.cos(angle), Math.sin(angle), steep).normalize();
+}
+
+/**
+ * The sides from which is looked: the first, unless from another all are much closer, as those who stand in a long row.
+ * Freely from ahead and a little above, the likeliest to please. From above, ahead is up on the screen.
+ */
+const SIDES: Record<Preset, Vector3[]> = {
+  free: [-38, 38, -52, 52, 0].map((degrees) => from(degrees, 0.3)),
+  front: [0, -20, 20, -35, 35].map((degrees) => from(degrees, 0.16)),
+  side: [-90, -110, -70, -125, -55].map((degrees) => from(degrees, 0.16)),
+  top: [new Vector3(-0.002, 0, 1).normalize()],
+};
 
 /** Whether whoever sits there asked the system for less motion. */
 function calm(): boolean {

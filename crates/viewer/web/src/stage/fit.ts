@@ -33,9 +33,9 @@ export function bestDirection(points: Vector3[], directions: Vector3[], fov: num
   return directions.find((_, place) => (distances[place] ?? Infinity) < nearest * 1.25) ?? new Vector3(1, 0, 0);
 }
 
-/** The shares of the picture that are filled: above and below names and controls have their place. */
-const WIDE = 0.82;
-const TALL = 0.7;
+/** The shares of the picture that are filled. */
+const WIDE = 0.86;
+const TALL = 0.94;
 /** The least distance from the nearest point. */
 const NEAREST = 1.2;
 

@@ -13,6 +13,7 @@ import { Floor } from './room/floor';
 import { Lights } from './room/lights';
 import { Sky } from './room/sky';
 import { type Look, LOOKS } from './room/theme';
+import { Reach } from './reach';
 import { looksSame } from './same';
 import { drawnBySoftware } from './software';
 import { Tags } from './tags';
@@ -48,11 +49,17 @@ export class Stage {
   private waiting = new Map<number, SubjectRecord>();
   private followed: number | null = null;
   private size = { width: 1, height: 1 };
+  private covered = { top: 0, bottom: 0 };
   private posesChanged = true;
   private viewChanged = true;
   /** From where everybody is looked at, and for how many that view was made. */
   private side: Preset = 'free';
   private framed = 0;
+  private wasFramed = false;
+  /** Where those who are shown were in the last seconds. */
+  private readonly reach = new Reach();
+  /** Whether whom it follows has yet to be brought into the middle. */
+  private centring = false;
   /** What the picture is drawn with now. */
   private step: QualityStep;
   private restedFor = 0;
@@ -123,16 +130,28 @@ export class Stage {
   /** Goes along with a performer from now on, or with none. */
   follow(id: number | null): void {
     this.followed = id;
-    this.eye.chosen = true;
+    this.centring = id !== null;
+    this.framed = 0;
     this.eye.follow(this.goal());
+    this.posesChanged = true;
   }
 
-  /** Looks at whom it follows, or else at all, from a side. */
+  /** Looks at whom it follows, or else at all, from a side: of one performer from its own. */
   preset(preset: Preset): void {
     this.side = preset;
-    this.eye.chosen = this.goal() !== null;
-    this.eye.look(preset, this.outline(this.goal() ? this.followed : null));
+    this.eye.chosen = this.centring = false;
+    this.reach.forget();
+    this.eye.look(preset, this.looked(), this.facing());
     this.viewChanged = true;
+  }
+
+  /** So many CSS pixels above and below are covered by other things: whom it frames is between them. */
+  cover(top: number, bottom: number): void {
+    if (top === this.covered.top && bottom === this.covered.bottom) return;
+    this.covered = { top, bottom };
+    this.eye.resize({ ...this.size, ...this.covered });
+    this.framed = 0;
+    this.posesChanged = true;
   }
 
   view(): ViewState {
@@ -185,6 +204,7 @@ export class Stage {
   /** One frame of the screen; true when something was drawn that tells how quick drawing is. */
   private tick(seconds: number, sinceDrawn: number | null): boolean {
     if (sinceDrawn !== null) this.quality.frame(sinceDrawn);
+    this.centreFollowed();
     this.frameEverybody();
     if (this.eye.update(seconds, this.goal())) this.viewChanged = true;
     if (!this.posesChanged && !this.viewChanged) return this.rest(seconds);
@@ -246,12 +266,46 @@ export class Stage {
 
   /** Until somebody moves the view by hand, everyone is in it: at first, when there are more, when one walks out. */
   private frameEverybody(): void {
-    if (this.eye.chosen || !this.posesChanged) return;
-    const places = this.shown().flatMap((performer) => performer.centre() ?? []);
-    if (places.length === 0) return;
-    if (this.framed !== places.length) this.eye.look(this.side, this.outline(null), this.framed === 0 || undefined);
-    else if (!places.every((place) => this.eye.sees(place))) this.eye.widen(places.flatMap(roomAround));
-    this.framed = places.length;
+    if (this.eye.chosen || this.followed !== null || !this.posesChanged) return;
+    const count = this.shown().filter((performer) => performer.centre()).length;
+    if (count === 0) return;
+    const outline = this.outline(null);
+    if (this.framed !== count) this.reach.forget();
+    this.reach.add(outline);
+    if (this.framed !== count) this.frameFirst();
+    else if (!outline.every((place) => this.eye.sees(place))) this.eye.widen(this.reach.corners());
+    this.framed = count;
+  }
+
+  private frameFirst(): void {
+    const first = !this.wasFramed;
+    this.wasFramed = true;
+    this.eye.look(this.side, this.looked(), this.facing(), first || undefined);
+  }
+
+  private centreFollowed(): void {
+    if (!this.centring || !this.goal()) return;
+    this.centring = false;
+    this.eye.follow(this.goal());
+    this.eye.centre(this.looked());
+  }
+
+  /** What views from a side show: whom it follows, with some room, or all. */
+  private looked(): Vector3[] {
+    const one = this.goal() && this.followed !== null ? this.performers.get(this.followed) : undefined;
+    return one?.room() ?? this.shownRoom();
+  }
+
+  private shownRoom(): Vector3[] {
+    const points = this.shown().flatMap((performer) => performer.room());
+    return points.length > 0 ? points : this.outline(null);
+  }
+
+  /** Where the one who is looked at faces; of several, ahead is +X. */
+  private facing(): number {
+    const shown = this.shown();
+    const one = this.followed === null ? shown[0] : this.performers.get(this.followed);
+    return one && (this.followed !== null || shown.length === 1) ? one.facing() : 0;
   }
 
   private shown(): Performer[] {
@@ -279,6 +333,7 @@ export class Stage {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
     this.size = { width, height };
+    this.framed = 0;
     this.fitCanvas();
     // A canvas of a new size is empty until it is drawn.
     this.render();
@@ -290,7 +345,7 @@ export class Stage {
     this.renderer.setPixelRatio(this.step === STILL ? pixelRatio : Math.min(window.devicePixelRatio, pixelRatio));
     this.renderer.setSize(width, height, false);
     this.brush.resize(width, height);
-    this.eye.resize(width, height);
+    this.eye.resize({ width, height, ...this.covered });
     this.lights.shadows = shadows;
     this.posesChanged = true;
   }
@@ -312,16 +367,6 @@ function around(points: Vector3[]): { centre: Vector3; radius: number } {
   const box = new Box3().setFromPoints(points);
   return { centre: box.getCenter(new Vector3()), radius: box.getSize(new Vector3()).setZ(0).length() / 2 };
 }
-
-/** Where somebody at a place may be before long. */
-function roomAround({ x, y }: Vector3): Vector3[] {
-  return [-ROOM, ROOM].flatMap((dx) =>
-    [-ROOM, ROOM].flatMap((dy) => [0, 1.9].map((z) => new Vector3(x + dx, y + dy, z))),
-  );
-}
-
-/** Metres of room around somebody, so that the view need not move at each step. */
-const ROOM = 1.2;
 
 /** How long nothing moves, in seconds, until the picture is drawn once more as well as can be. */
 const STILL_AFTER = 0.3;

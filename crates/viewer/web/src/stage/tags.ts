@@ -55,4 +55,4 @@ function text(performer: Performer): TagText {
   return { name: nameOf(subject), note: performer.note(), state: STATES[state], color };
 }
 
-const STATES = { [State.Live]: '', [State.Stale]: 'STALE', [State.Lost]: 'LOST' } as const;
+const STATES = { [State.Live]: '', [State.Stale]: 'STALE', [State.Lost]: 'LOST', [State.Away]: '' } as const;
