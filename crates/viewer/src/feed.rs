@@ -2,6 +2,7 @@
 
 use crate::channel::{present, with_told};
 use crate::derived::SampleRate;
+use crate::hold::Hold;
 use crate::scene::{Scene, SubjectRecord};
 use crate::series::{Plot, Wish};
 use crate::wire::{self, State};
@@ -48,7 +49,9 @@ struct Newest {
 struct Live {
     source: SourceId,
     subject: Arc<Subject>,
+    /// What is shown: the newest, with what it lacks.
     frame: Option<Arc<Frame>>,
+    hold: Hold,
     /// Which frame of all it is.
     number: u64,
     arrived: Instant,
@@ -258,6 +261,7 @@ impl Live {
             source,
             subject: Arc::clone(subject),
             frame: None,
+            hold: Hold::default(),
             number: 0,
             arrived: Instant::now(),
             period: 0.0,
@@ -278,7 +282,7 @@ impl Live {
         self.rate.take(frame);
         let before = self.present;
         self.present |= present(frame);
-        self.frame = Some(Arc::clone(frame));
+        self.frame = Some(self.hold.take(frame));
         self.present != before
     }
 

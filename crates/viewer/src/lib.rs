@@ -31,6 +31,7 @@ mod derived;
 mod error;
 mod feed;
 mod guard;
+mod hold;
 mod live;
 mod metrics;
 mod page;

@@ -89,6 +89,8 @@ pub(crate) struct TakeRecord {
     pub(crate) duration_s: f64,
     /// Per gap: the frame before it, and how many samples it lacks.
     pub(crate) gaps: Vec<(usize, u32)>,
+    /// Per stretch of frames that have no pose and show another's: the first, and how many they are.
+    pub(crate) lost_poses: Vec<(usize, usize)>,
     pub(crate) markers: Vec<MarkerRecord>,
     pub(crate) start_timecode: Option<String>,
 }

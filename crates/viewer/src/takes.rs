@@ -2,7 +2,7 @@
 
 use crate::channel::{self, Channel};
 use crate::scene::{MarkerRecord, Scene, SubjectRecord, TakeRecord};
-use crate::{Error, Result, wire};
+use crate::{Error, Result, hold, wire};
 use posewire_motion::kinematics::{Differences, complete, completed};
 use posewire_motion::{Frame, Take};
 use std::ops::Range;
@@ -12,13 +12,15 @@ use std::time::Duration;
 /// Takes that a page plays itself, whole in memory. Clones share them.
 ///
 /// Each take's subject is one of the page's; all of them are on one timeline, by when they were received or by their
-/// timecodes where all say, and else beginning together.
+/// timecodes where all say. Files that have no moment in common begin together.
 #[derive(Clone, Debug, Default)]
 pub struct Takes {
     all: Arc<[Take]>,
     files: Arc<[String]>,
     subjects: Arc<[SubjectRecord]>,
     records: Arc<[TakeRecord]>,
+    /// Per take and frame the place of the frame whose pose is shown.
+    poses: Arc<[Vec<usize>]>,
 }
 
 impl Takes {
@@ -29,15 +31,20 @@ impl Takes {
     pub fn new(takes: impl IntoIterator<Item = (String, Take)>) -> Self {
         let takes = takes.into_iter().filter(|(_, take)| !take.is_empty());
         let (files, takes): (Vec<_>, Vec<_>) = takes.unzip();
-        let starts = starts(&takes);
+        let starts = starts(&files, &takes);
+        let poses: Arc<[_]> = takes.iter().map(hold::poses).collect();
         let numbered = (0..).zip(&takes);
         let subjects = numbered.map(|(id, take)| SubjectRecord::new(id, 0, &take.subject, present(take)));
         let each = takes.iter().zip(&files).zip(starts).zip(0..);
-        let records = each.map(|(((take, file), start), id)| record(id, file, take, start));
+        let records = each.map(|(((take, file), start), id)| TakeRecord {
+            lost_poses: hold::lost(&poses[id as usize]),
+            ..record(id, file, take, start)
+        });
         Self {
             subjects: subjects.collect(),
             records: records.collect(),
             files: named_once(&files),
+            poses,
             all: takes.into(),
         }
     }
@@ -71,7 +78,7 @@ impl Takes {
         let places: Range<usize> = from..from.saturating_add(count).min(found.len());
         let (mut out, mut frame) = (Vec::new(), Frame::new(Arc::clone(&found.subject)));
         for place in places {
-            found.read_frame(place, &mut frame);
+            hold::read_whole(found, place, self.poses[take as usize][place], &mut frame);
             wire::write_record(take, &frame, &mut out);
         }
         Ok(out)
@@ -111,25 +118,35 @@ impl Takes {
 
 fn record(id: u32, file: &str, take: &Take, start_s: f64) -> TakeRecord {
     let samples = take.samples();
-    let (first, last) = (samples[0], samples[samples.len() - 1]);
     let markers = take.events().iter().map(|(frame, name)| MarkerRecord {
         frame: *frame,
         name: name.clone(),
     });
-    let rate_hz = if take.rate > 0.0 { take.rate } else { 1.0 };
     TakeRecord {
         id,
         subject: id,
         file: file.to_owned(),
-        rate_hz,
+        rate_hz: rate(take),
         frames: take.len(),
-        first_sample: first,
+        first_sample: samples[0],
         start_s,
-        duration_s: (f64::from(last.saturating_sub(first)) + 1.0) / rate_hz,
+        duration_s: duration(take),
         gaps: gaps(samples),
+        lost_poses: Vec::new(),
         markers: markers.collect(),
         start_timecode: take.timecodes()[0].map(|code| code.to_string()),
     }
+}
+
+fn rate(take: &Take) -> f64 {
+    if take.rate > 0.0 { take.rate } else { 1.0 }
+}
+
+/// How long a take is, s, with its gaps.
+fn duration(take: &Take) -> f64 {
+    let samples = take.samples();
+    let last = samples[samples.len() - 1].saturating_sub(samples[0]);
+    (f64::from(last) + 1.0) / rate(take)
 }
 
 /// Per gap in the samples: the place of the frame before it, and how many samples it lacks.
@@ -139,23 +156,63 @@ fn gaps(samples: &[u32]) -> Vec<(usize, u32)> {
     gaps.map(|(before, step)| (before, step - 1)).collect()
 }
 
-/// When each take begins, s after the first of all.
-fn starts(takes: &[Take]) -> Vec<f64> {
-    let received = takes
-        .iter()
-        .map(|take| Some(take.frame(0).received?.nanoseconds() as f64 / 1e9));
-    let timecodes = || {
-        takes
-            .iter()
-            .map(|take| Some(f64::from(take.timecodes()[0]?.milliseconds()) / 1e3))
-    };
-    let known: Option<Vec<f64>> = received.collect();
-    let known = known.or_else(|| timecodes().collect());
+/// When each take begins, s after the first of those that it has a moment in common with.
+fn starts(files: &[String], takes: &[Take]) -> Vec<f64> {
+    let received = |take: &Take| Some(take.frame(0).received?.nanoseconds() as f64 / 1e9);
+    let timecode = |take: &Take| Some(f64::from(take.timecodes()[0]?.milliseconds()) / 1e3);
+    let known: Option<Vec<_>> = takes.iter().map(received).collect();
+    let known = known.or_else(|| takes.iter().map(timecode).collect());
     let Some(known) = known else {
         return vec![0.0; takes.len()];
     };
-    let first = known.iter().copied().fold(f64::INFINITY, f64::min);
-    known.into_iter().map(|at| at - first).collect()
+    let mut all: Vec<Stretch> = Vec::new();
+    for ((file, take), start) in files.iter().zip(takes).zip(&known) {
+        let stretch = Stretch {
+            file,
+            from: *start,
+            to: start + duration(take),
+        };
+        match all.iter_mut().find(|other| other.file == file) {
+            Some(other) => other.include(&stretch),
+            None => all.push(stretch),
+        }
+    }
+    let places = files.iter().zip(known);
+    places.map(|(file, start)| start - together(file, &all)).collect()
+}
+
+/// From when to when a file was recorded, s.
+#[derive(Clone, Copy)]
+struct Stretch<'a> {
+    file: &'a str,
+    from: f64,
+    to: f64,
+}
+
+impl Stretch<'_> {
+    fn include(&mut self, other: &Self) {
+        (self.from, self.to) = (self.from.min(other.from), self.to.max(other.to));
+    }
+
+    fn meets(&self, other: &Self) -> bool {
+        self.from < other.to && other.from < self.to
+    }
+}
+
+/// When the first of the files began that this one has a moment in common with, through others too.
+fn together(file: &str, all: &[Stretch]) -> f64 {
+    let Some(mut whole) = all.iter().find(|stretch| stretch.file == file).copied() else {
+        return 0.0;
+    };
+    // Each round reaches at least one more, or is the last.
+    for _ in all {
+        let met = all.iter().filter(|other| whole.meets(other)).copied();
+        whole = met.fold(whole, |mut whole, other| {
+            whole.include(&other);
+            whole
+        });
+    }
+    whole.from
 }
 
 /// The sections of a take, and those that its poses tell.

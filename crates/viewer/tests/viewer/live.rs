@@ -127,6 +127,22 @@ fn a_plot_gets_every_sample_in_degrees() {
 }
 
 #[test]
+fn a_sample_that_lost_its_pose_shows_the_one_before() {
+    let mut stage = Stage::new();
+    let subject = ada();
+    stage.walk(&subject, 1, 0.25);
+    let mut frame = Frame::new(subject);
+    frame.sample = 2;
+    frame.joint_angles = vec![Some(DVec3::ZERO); 22];
+    stage.show(frame);
+    let record = &stage.page().moved().records[0];
+    assert_eq!(
+        (record.sample, record.flags, record.position[0]),
+        (2, 1, [0.25, 0.0, 1.0])
+    );
+}
+
+#[test]
 fn states_follow_the_stream_and_come_back() {
     let mut stage = Stage::new();
     stage.walk(&ada(), 1, 0.0);

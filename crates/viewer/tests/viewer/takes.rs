@@ -5,7 +5,7 @@ use crate::harness::{Answer, Page, ask};
 use posewire::endpoint::Walk;
 use posewire::source::synthetic;
 use posewire_motion::kinematics::completed;
-use posewire_motion::{Section, Take};
+use posewire_motion::{Section, Take, Timecode};
 use posewire_viewer::{Content, Options, Server, Takes};
 use std::sync::Arc;
 
@@ -145,6 +145,57 @@ fn takes_are_described_with_their_gaps() {
         (&1.into(), &50.into())
     );
     assert_eq!(ask(server.address(), "/api/scene").json()["takes"], scene["takes"]);
+}
+
+/// The walker's take, whose first frame has this timecode, s of the day.
+fn walk_at(samples: u32, second: u64) -> Take {
+    let walk = walk(0..samples);
+    let mut take = Take::new(Arc::clone(&walk.subject), walk.rate);
+    for mut frame in walk.frames() {
+        frame.timecode = Some(Timecode::from_milliseconds(
+            second * 1000 + u64::from(frame.sample) * 1000 / 240,
+        ));
+        frame.received = None;
+        take.push(&frame).unwrap();
+    }
+    take
+}
+
+#[test]
+fn takes_that_have_no_moment_in_common_begin_together() {
+    let takes = [
+        ("noon.mvnx", walk_at(480, 43_200)),
+        ("later.mvnx", walk_at(480, 43_201)),
+        ("evening.mvnx", walk_at(10, 72_000)),
+        ("evening.mvnx", walk_at(10, 72_003)),
+    ];
+    let server = serve(Takes::new(takes.map(|(file, take)| (file.to_owned(), take))));
+    let scene = ask(server.address(), "/api/scene").json();
+    let starts: Vec<_> = (0..4)
+        .map(|take| scene["takes"][take]["start_s"].as_f64().unwrap())
+        .collect();
+    assert_eq!(starts, [0.0, 1.0, 0.0, 3.0], "those of one file keep their distance");
+}
+
+#[test]
+fn frames_without_a_pose_are_told_and_show_the_last_one() {
+    let whole = walk(0..10);
+    let mut take = Take::new(Arc::clone(&whole.subject), whole.rate);
+    for mut frame in whole.frames() {
+        if matches!(frame.sample, 3 | 4) {
+            frame.position.clear();
+            frame.orientation.clear();
+        }
+        take.push(&frame).unwrap();
+    }
+    let server = serve(Takes::new([("walk.mcap".to_owned(), take)]));
+    let scene = ask(server.address(), "/api/scene").json();
+    assert_eq!(scene["takes"][0]["lost_poses"], serde_json::json!([[3, 2]]));
+    assert_eq!(scene["takes"][0]["gaps"], serde_json::json!([]));
+    let read = records(&frames(&server, 0, 0, 10));
+    assert_eq!((read[4].sample, read[4].flags & 3), (4, 3));
+    assert_eq!(read[4].position, read[2].position);
+    assert_ne!(read[5].position, read[2].position);
 }
 
 #[test]
