@@ -44,15 +44,30 @@ function takeBlock(take: Take, open: boolean, go: (take: Take, frame: number) =>
       take.gaps.map(([frame, missing]) => gap(frame, missing)),
       go,
     ),
+    places(
+      take,
+      'Lost poses',
+      (take.lost_poses ?? []).map(([frame, lost]) => ({ frame, text: poses(lost), detail: `frame ${count(frame)}` })),
+      go,
+    ),
   );
   block.open = open;
   return block;
 }
 
-/** "72 of 1,200 samples missing". */
+/** "72 of 1,200 missing, 11 poses missing". */
 function note(take: Take): string {
-  const missing = take.gaps.reduce((sum, [, samples]) => sum + samples, 0);
-  return missing > 0 ? `${count(missing)} of ${count(take.frames + missing)} missing` : 'complete';
+  const sum = (all: [number, number][]): number => all.reduce((total, [, samples]) => total + samples, 0);
+  const missing = sum(take.gaps);
+  const lost = sum(take.lost_poses ?? []);
+  const parts = [];
+  if (missing > 0) parts.push(`${count(missing)} of ${count(take.frames + missing)} missing`);
+  if (lost > 0) parts.push(poses(lost));
+  return parts.join(', ') || 'complete';
+}
+
+function poses(lost: number): string {
+  return lost === 1 ? '1 pose missing' : `${count(lost)} poses missing`;
 }
 
 function gap(frame: number, missing: number): Place {

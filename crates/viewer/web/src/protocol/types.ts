@@ -90,6 +90,8 @@ export interface Take {
   duration_s: number;
   /** The frame before each gap, and how many samples are missing there. */
   gaps: [number, number][];
+  /** The first of each stretch of frames whose pose was lost, which show another's, and how many they are. */
+  lost_poses?: [number, number][];
   markers: TakeMarker[];
   start_timecode: string | null;
 }
@@ -104,8 +106,11 @@ export interface Scene {
   takes: Take[];
 }
 
-/** What the server thinks of a subject: samples come, came a moment ago, came long ago. */
-export const State = { Live: 0, Stale: 1, Lost: 2 } as const;
+/**
+ * What the server thinks of a subject: samples come, came a moment ago, came long ago. Away is whose take has not begun or
+ * is over.
+ */
+export const State = { Live: 0, Stale: 1, Lost: 2, Away: 3 } as const;
 export type State = (typeof State)[keyof typeof State];
 
 /** The bits of `SubjectRecord.flags`. */

@@ -1,7 +1,7 @@
 /** Plays takes: keeps the playhead going, and hands on the frames that are to be seen. */
 
 import { TakeFrames } from '../protocol/takes';
-import type { SubjectRecord, Take } from '../protocol/types';
+import { State, type SubjectRecord, type Take } from '../protocol/types';
 import { Playhead } from './playhead';
 import { type Span, frameAt, frameTime, nearestFrame, wholeSpan } from './timeline';
 
@@ -38,7 +38,8 @@ export class Player {
 
   /** The frame that the leading take shows, once it has come. */
   shownFrame(): number | null {
-    return (this.leading && this.shown.get(this.leading.id)) ?? null;
+    const shown = this.leading && this.shown.get(this.leading.id);
+    return shown === undefined ? null : shown < 0 ? -1 - shown : shown;
   }
 
   seek(seconds: number): void {
@@ -80,10 +81,13 @@ export class Player {
     this.frames.forEach((frames) => {
       const { take } = frames;
       const wanted = this.takes.length === 1 ? this.frame() : frameAt(take, this.playhead.position);
-      const record = frames.frame(wanted < 0 ? nearestFrame(take, this.playhead.position) : wanted, this.direction);
-      if (!record || this.shown.get(take.id) === wanted) return;
-      this.shown.set(take.id, wanted);
-      records.push(wanted < 0 ? absent(record) : record);
+      const place = wanted < 0 ? nearestFrame(take, this.playhead.position) : wanted;
+      const record = frames.frame(place, this.direction);
+      // The first frame is another thing before the take than in it.
+      const shown = wanted < 0 ? -1 - place : place;
+      if (!record || this.shown.get(take.id) === shown) return;
+      this.shown.set(take.id, shown);
+      records.push(wanted < 0 ? away(record) : record);
     });
     if (records.length > 0) this.show(records);
   }
@@ -98,7 +102,7 @@ function nearestFrameBefore(take: Take, seconds: number): number {
   return frame >= 0 ? frame : nearestFrame(take, seconds);
 }
 
-/** Outside of its take a subject is shown as lost: its nearest pose, faint. */
-function absent(record: SubjectRecord): SubjectRecord {
-  return { ...record, state: 2 };
+/** Outside of its take a subject keeps its first or last pose, without colour. */
+function away(record: SubjectRecord): SubjectRecord {
+  return { ...record, state: State.Away };
 }
