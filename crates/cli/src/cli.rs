@@ -14,6 +14,7 @@ mod stream;
 #[cfg(test)]
 mod tests;
 mod value;
+mod view;
 
 pub(crate) use capture::{Capture, Part};
 pub(crate) use convert::{Axes, Convert, OfFormat, Unit};
@@ -26,6 +27,7 @@ pub(crate) use record::Record;
 pub(crate) use replay::Replay;
 pub(crate) use stream::{Playback, Revision, Stream};
 pub(crate) use value::Format;
+pub(crate) use view::View;
 
 use clap::{Parser, Subcommand};
 
@@ -63,6 +65,7 @@ Try it without a suit:  posewire demo";
 pub(crate) enum Command {
     Stream(Stream),
     Monitor(Monitor),
+    View(View),
     Record(Record),
     Replay(Replay),
     Inspect(Inspect),

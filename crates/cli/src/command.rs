@@ -9,6 +9,7 @@ mod monitor;
 mod record;
 mod replay;
 mod stream;
+mod view;
 
 use crate::cli::Command;
 use std::process::ExitCode;
@@ -43,6 +44,7 @@ pub(crate) fn run(command: Command) -> anyhow::Result<End> {
     match command {
         Command::Stream(arguments) => stream::run(&arguments),
         Command::Monitor(arguments) => monitor::run(&arguments),
+        Command::View(arguments) => view::run(&arguments),
         Command::Record(arguments) => record::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Convert(arguments) => convert::run(&arguments),

@@ -31,6 +31,8 @@ pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
         (error.is_usage(), error.help())
     } else if let Some(usage) = error.downcast_ref::<Usage>() {
         (true, Some(usage.help.clone()))
+    } else if let Some(help) = viewer_help(error) {
+        (false, Some(help))
     } else {
         (
             false,
@@ -46,6 +48,17 @@ pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
         help.unwrap_or_else(|| "posewire --help lists what can be done".to_owned())
     );
     ExitCode::from(if usage { 2 } else { 1 })
+}
+
+/// What to do about a failure of the browser page, if it is one.
+#[cfg(feature = "viewer")]
+fn viewer_help(error: &anyhow::Error) -> Option<String> {
+    error.downcast_ref().and_then(posewire_viewer::Error::help)
+}
+
+#[cfg(not(feature = "viewer"))]
+fn viewer_help(_: &anyhow::Error) -> Option<String> {
+    None
 }
 
 /// Prints what the parsing of the arguments ended with: the help or version that was asked for, else what is wrong with

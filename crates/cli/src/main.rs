@@ -1,5 +1,6 @@
 //! `posewire`: stream, monitor, inspect and explain motion capture.
 
+mod browser;
 mod cli;
 mod command;
 mod context;

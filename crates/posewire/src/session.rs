@@ -1,6 +1,6 @@
 //! Sources and the sinks they feed, each on a thread of its own.
 
-use crate::queue::{Closed, Consumer, Producer, bounded_by_weight};
+use crate::queue::{Closed, Consumer, Policy, Producer, bounded_by_weight};
 use crate::stop::Stop;
 use crate::{Datagram, Item, Notice, Result, Sink, Source, SourceId, Wants};
 use std::sync::Arc;
@@ -25,7 +25,8 @@ pub struct Session {
 /// How a session ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Outcome {
-    /// Items that a sink's queue had to drop because the sink was too slow.
+    /// Items that no lossless queue had room for, because its sink was too slow. What a queue of the newest replaces is not
+    /// lost: its sink asked for no more.
     pub dropped: u64,
 }
 
@@ -106,7 +107,12 @@ fn start_sink(mut sink: Box<dyn Sink>, stop: Stop) -> (Feeder, JoinHandle<Result
             stop.stop();
         }
         let finished = sink.finish();
-        fed.and(finished).map(|()| consumer.dropped())
+        let lost = if policy == Policy::Lossless {
+            consumer.dropped()
+        } else {
+            0
+        };
+        fed.and(finished).map(|()| lost)
     });
     (Feeder { producer, wants }, thread)
 }
@@ -225,7 +231,7 @@ const MOST_BYTES: usize = 128 << 20;
 mod tests {
     use super::*;
     use crate::Wire;
-    use crate::queue::{Policy, bounded};
+    use crate::queue::bounded;
     use posewire_motion::Stamp;
 
     fn notice(number: u32) -> Item {
@@ -258,6 +264,40 @@ mod tests {
         });
         assert_eq!(arrived, [0, 3].map(|number| format!("{:?}", notice(number))));
         assert_eq!(consumer.dropped(), 2);
+    }
+
+    /// A sink that takes nothing before its queue is full.
+    struct Slow(Policy, std::sync::mpsc::Receiver<()>);
+
+    impl Sink for Slow {
+        fn queue(&self) -> (Policy, usize) {
+            (self.0, 1)
+        }
+
+        fn accept(&mut self, _: SourceId, _: &Item) -> Result<()> {
+            let _ = self.1.recv();
+            Ok(())
+        }
+    }
+
+    /// What is counted as lost when a live source is too fast for a sink with such a queue.
+    fn lost(policy: Policy) -> (u64, u64) {
+        let (go_on, wait) = std::sync::mpsc::channel();
+        let (feeder, sink) = start_sink(Box::new(Slow(policy, wait)), Stop::new());
+        let drops = feeder.producer.drops();
+        let mut outlet = Outlet::new(SourceId(0), true, vec![feeder]);
+        (0..5).for_each(|number| outlet.push(notice(number)));
+        outlet.flush();
+        drop((outlet, go_on));
+        (sink.join().unwrap().unwrap(), drops.load(Ordering::Relaxed))
+    }
+
+    #[test]
+    fn what_a_queue_of_the_newest_replaces_is_dropped_and_not_lost() {
+        let (lossless, newest) = (lost(Policy::Lossless), lost(Policy::Newest));
+        assert_eq!(lossless.0, lossless.1);
+        assert!(lossless.0 > 0 && newest.1 > 0, "{lossless:?} {newest:?}");
+        assert_eq!(newest.0, 0);
     }
 
     #[test]

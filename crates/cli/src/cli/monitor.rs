@@ -2,6 +2,7 @@
 
 use super::capture::Again;
 use super::value::seconds;
+use super::view::Beside;
 use clap::Args;
 use std::time::Duration;
 
@@ -47,4 +48,7 @@ pub(crate) struct Monitor {
     /// Stop after so many samples, of all characters together.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) count: Option<u64>,
+
+    #[command(flatten)]
+    pub(crate) beside: Beside,
 }

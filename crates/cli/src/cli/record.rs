@@ -2,6 +2,7 @@
 
 use super::remote::remote;
 use super::value::seconds;
+use super::view::Beside;
 use clap::Args;
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -44,6 +45,9 @@ pub(crate) struct Record {
     /// ADDRESS:PORT; MVN's is 6004.
     #[arg(long, value_name = "PORT", value_parser = remote)]
     pub(crate) remote: Option<SocketAddr>,
+
+    #[command(flatten)]
+    pub(crate) beside: Beside,
 
     /// Print JSON: one object a second, and one at the end.
     #[arg(long)]

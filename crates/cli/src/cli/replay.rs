@@ -2,6 +2,7 @@
 
 use super::capture::Again;
 use super::value::seconds;
+use super::view::Beside;
 use clap::Args;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -40,6 +41,9 @@ pub(crate) struct Replay {
     /// Begin at once, also when nobody has connected yet.
     #[arg(long)]
     pub(crate) no_wait: bool,
+
+    #[command(flatten)]
+    pub(crate) beside: Beside,
 
     /// Print the numbers at the end as one JSON object.
     #[arg(long)]

@@ -3,6 +3,7 @@
 use super::capture::Capture;
 use super::remote::remote;
 use super::value::seconds;
+use super::view::Beside;
 use clap::{Args, ValueEnum};
 use std::net::SocketAddr;
 use std::time::Duration;
@@ -80,6 +81,9 @@ pub(crate) struct Stream {
     /// Drop a NatNet client that has said nothing for so many seconds; 10 unless set. Multicast has no clients.
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     pub(crate) silence: Option<Duration>,
+
+    #[command(flatten)]
+    pub(crate) beside: Beside,
 
     /// Print the numbers at the end as one JSON object.
     #[arg(long)]

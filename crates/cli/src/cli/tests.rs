@@ -50,6 +50,7 @@ fn every_command_of_the_documents_is_one() {
         ("faults", include_str!("../../../../docs/faults.md"), 3),
         ("natnet", include_str!("../../../../docs/natnet.md"), 14),
         ("replaying", include_str!("../../../../docs/replaying.md"), 6),
+        ("viewer", include_str!("../../../../docs/viewer.md"), 0),
         (
             "troubleshooting",
             include_str!("../../../../docs/troubleshooting.md"),

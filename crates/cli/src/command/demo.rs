@@ -1,7 +1,8 @@
-//! `posewire demo`: walkers, streamed over the loopback and monitored.
+//! `posewire demo`: walkers, streamed over the loopback, monitored and shown in a browser.
 
 use super::End;
 use super::monitor::{self, View};
+use crate::browser::Browser;
 use crate::cli::Demo;
 use crate::context::{self, say};
 use posewire::endpoint::{Endpoint, Host, UdpAddress, Walk};
@@ -24,12 +25,17 @@ pub(super) fn run(arguments: &Demo) -> anyhow::Result<End> {
     let progress = sink.progress();
     say(format_args!("{walk} is streamed to {}", monitored.endpoint()));
 
+    let browser = Browser::anywhere(arguments.beside.view, &[monitored.endpoint().clone()])?;
+    if let Some(browser) = browser.as_ref().filter(|_| arguments.open) {
+        browser.open();
+    }
     context::stop_after(&stop, arguments.duration);
     let streaming = Session::start([walkers], vec![Box::new(sink)], stop.clone());
     let end = monitor::show(
         vec![monitored],
         View::choose(arguments.json, false, arguments.plain),
         None,
+        browser.as_ref(),
         &stop,
     );
     stop.stop();

@@ -3,7 +3,8 @@
 mod takes;
 
 use super::End;
-use super::monitor::hint;
+use super::monitor::{endpoints_of, hint};
+use crate::browser::Browser;
 use crate::cli::Record;
 use crate::context::{self, Teller, end_progress, say, show_progress, shows_progress};
 use crate::error::Usage;
@@ -14,7 +15,7 @@ use posewire::sink::{RecordOptions, RecordProgress, RecordSink};
 use posewire::source::PlaybackOptions;
 use posewire::stats::Statistics;
 use posewire::stop::Stop;
-use posewire::{Outcome, Session, Source};
+use posewire::{Outcome, Session, Sink, Source};
 use std::collections::BTreeSet;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -26,7 +27,7 @@ pub(super) fn run(arguments: &Record) -> anyhow::Result<End> {
     if let Some(address) = arguments.remote {
         return takes::run(arguments, address, sources, &stop);
     }
-    let endpoints: Vec<_> = sources.iter().map(|source| source.endpoint().clone()).collect();
+    let endpoints = endpoints_of(&sources);
     let options = RecordOptions {
         split: arguments.split_size.map(|megabytes| megabytes * MEGABYTE),
         overwrite: arguments.overwrite,
@@ -37,9 +38,12 @@ pub(super) fn run(arguments: &Record) -> anyhow::Result<End> {
         say(format_args!("recording {endpoint}"));
     }
     say(format_args!("  into {}", arguments.output.display()));
+    let browser = Browser::beside(arguments.beside.view, &endpoints)?;
     context::stop_after(&stop, arguments.duration);
     let teller = Teller::default();
-    let session = Session::start(sources, vec![Box::new(sink), Box::new(teller.clone())], stop.clone());
+    let mut sinks: Vec<Box<dyn Sink>> = vec![Box::new(sink), Box::new(teller.clone())];
+    sinks.extend(browser.as_ref().map(Browser::sink));
+    let session = Session::start(sources, sinks, stop.clone());
     let begun = Instant::now();
     watch(&session, &progress, arguments.json, &stop)?;
     let outcome = session.wait();

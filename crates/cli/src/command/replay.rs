@@ -1,5 +1,7 @@
 //! `posewire replay`: the datagrams of a capture sent again.
 
+mod shown;
+
 use super::End;
 use super::stream::{announce_faults, peers::Peers};
 use crate::cli::Replay;
@@ -12,6 +14,7 @@ use posewire::faults::FaultPlan;
 use posewire::replay::{self, ReplayOptions, Replayed};
 use posewire::sink::Progress;
 use posewire::stop::Stop;
+use shown::Shown;
 use std::fmt::Write;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
@@ -33,7 +36,9 @@ pub(super) fn run(arguments: &Replay) -> anyhow::Result<End> {
         replay.wait_until_ready(&stop);
     }
     context::stop_after(&stop, arguments.duration);
+    let shown = Shown::begin(arguments, &stop)?;
     let replayed = run_and_show(replay, &stop);
+    shown.map_or(Ok(()), Shown::end)?;
     end_progress();
     let replayed = replayed?;
     if let Some(damage) = &replayed.damage {

@@ -7,6 +7,8 @@ mod sinks;
 mod types;
 
 use super::End;
+use super::monitor::endpoints_of;
+use crate::browser::Browser;
 use crate::cli::{Playback, Stream};
 use crate::context::{self, Teller, end_progress, say, show_progress};
 use crate::{json, render};
@@ -46,6 +48,7 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
     if let Some(plan) = &plan {
         announce_faults(plan, &targets);
     }
+    let browser = Browser::beside(arguments.beside.view, &endpoints_of(&sources))?;
     if let Some(address) = arguments.remote {
         remote::serve(address, &sources, &sinks, &stop)?;
     }
@@ -57,6 +60,7 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
     let teller = Teller::default();
     let mut boxes = sinks.into_boxes();
     boxes.push(Box::new(teller.clone()));
+    boxes.extend(browser.as_ref().map(Browser::sink));
     let session = Session::start(sources, boxes, stop.clone());
     while !stop.wait(Duration::from_millis(200)) && session.is_running() {
         let progress = progress.read();

@@ -22,3 +22,4 @@ mod remote;
 mod replay;
 mod stream;
 mod takes;
+mod view;

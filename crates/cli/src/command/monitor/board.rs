@@ -80,6 +80,14 @@ impl Board {
         }
     }
 
+    /// The same board, which a browser shows there too.
+    pub(super) fn shown_at(self, url: &str) -> Self {
+        Self {
+            listening: format!("{}, page {url}", self.listening).into(),
+            ..self
+        }
+    }
+
     /// The end that a session feeds: the board of each of its sources.
     pub(super) fn sink(boards: &[Self]) -> impl Sink + use<> {
         BoardSink(boards.to_vec())

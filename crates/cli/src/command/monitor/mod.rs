@@ -9,6 +9,7 @@ mod silence;
 
 use super::End;
 use super::stream::refuse;
+use crate::browser::Browser;
 use crate::cli::Monitor;
 use crate::context::{self, say};
 use crate::error::Usage;
@@ -30,7 +31,13 @@ pub(super) fn run(arguments: &Monitor) -> anyhow::Result<End> {
     refuse_playback(arguments, &sources)?;
     context::stop_after(&stop, arguments.duration);
     let view = View::choose(arguments.json, arguments.frames, arguments.plain);
-    show(sources, view, arguments.count, &stop)
+    let browser = Browser::beside(arguments.beside.view, &endpoints_of(&sources))?;
+    show(sources, view, arguments.count, browser.as_ref(), &stop)
+}
+
+/// Where sources are open.
+pub(super) fn endpoints_of(sources: &[Source]) -> Vec<Endpoint> {
+    sources.iter().map(|source| source.endpoint().clone()).collect()
 }
 
 fn playback_options(arguments: &Monitor) -> PlaybackOptions {
@@ -119,12 +126,19 @@ impl View {
     }
 }
 
-/// Shows streams until they end, `count` samples have come or `stop` is set.
-pub(super) fn show(sources: Vec<Source>, view: View, count: Option<u64>, stop: &Stop) -> anyhow::Result<End> {
-    let boards = boards_of(&sources, count, stop);
+/// Shows streams until they end, `count` samples have come or `stop` is set; in a browser too, if there is one.
+pub(super) fn show(
+    sources: Vec<Source>,
+    view: View,
+    count: Option<u64>,
+    browser: Option<&Browser>,
+    stop: &Stop,
+) -> anyhow::Result<End> {
+    let mut boards = boards_of(&sources, count, stop);
     let is_live = sources.iter().any(Source::is_live);
     let names = Names::of(&sources);
     let mut sinks: Vec<Box<dyn Sink>> = vec![Box::new(Board::sink(&boards))];
+    sinks.extend(browser.map(Browser::sink));
     match view {
         View::Print(format) => {
             for board in &boards {
@@ -138,6 +152,9 @@ pub(super) fn show(sources: Vec<Source>, view: View, count: Option<u64>, stop: &
             finish(session, &boards, &names, view)
         }
         View::Page => {
+            if let Some(browser) = browser {
+                boards = boards.into_iter().map(|board| board.shown_at(browser.url())).collect();
+            }
             let session = Session::start(sources, sinks, stop.clone());
             let shown = page::run(&boards, stop);
             stop.stop();

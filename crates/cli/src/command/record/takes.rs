@@ -1,6 +1,7 @@
 //! `posewire record --remote`: takes that somebody else begins and ends.
 
 use super::{EVERY, LOOK_EVERY, MEGABYTE, QUIET, RECORDER, Rate, Shouts, Warnings, say_silent, tell_failure};
+use crate::browser::Browser;
 use crate::cli::Record;
 use crate::command::End;
 use crate::context::{self, Teller, end_progress, say, show_progress};
@@ -10,7 +11,7 @@ use posewire::endpoint::Endpoint;
 use posewire::remote::{RecordingControl, Remote};
 use posewire::sink::{TakeProgress, Takes, TakesProgress, TakesSink};
 use posewire::stop::Stop;
-use posewire::{Session, Source};
+use posewire::{Session, Sink, Source};
 use std::fs;
 use std::net::SocketAddr;
 use std::time::Instant;
@@ -31,7 +32,10 @@ pub(super) fn run(arguments: &Record, address: SocketAddr, sources: Vec<Source>,
     say(format_args!("  takes into {}", arguments.output.display()));
     context::announce_remote(&remote);
     context::stop_after(stop, arguments.duration);
-    let session = Session::start(sources, vec![Box::new(sink), Box::new(Teller::default())], stop.clone());
+    let browser = Browser::beside(arguments.beside.view, &endpoints)?;
+    let mut sinks: Vec<Box<dyn Sink>> = vec![Box::new(sink), Box::new(Teller::default())];
+    sinks.extend(browser.as_ref().map(Browser::sink));
+    let session = Session::start(sources, sinks, stop.clone());
     let json = arguments.json;
     let control = RecordingControl::new(takes.clone(), Box::new(move |take| ended(take, json)));
     let tell = Box::new(context::tell_of_remote);

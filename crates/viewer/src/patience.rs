@@ -1,0 +1,99 @@
+//! A connection that is given up when its other end takes nothing for a while.
+
+use crate::counts::Counts;
+use std::io;
+use std::pin::Pin;
+use std::sync::Arc;
+use std::task::{Context, Poll};
+use std::time::Duration;
+use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
+use tokio::net::TcpStream;
+use tokio::sync::OwnedSemaphorePermit;
+use tokio::time::{Instant, Sleep, sleep};
+
+/// A connection whose writing fails when nothing could be written for a while: a page that is stuck, or a download
+/// that nobody takes, holds its place no longer.
+#[derive(Debug)]
+pub(crate) struct Patient {
+    stream: TcpStream,
+    patience: Duration,
+    waiting: Pin<Box<Sleep>>,
+    is_waiting: bool,
+    counts: Arc<Counts>,
+    _place: OwnedSemaphorePermit,
+}
+
+impl Patient {
+    /// A connection that holds its place among those that are served until it is closed.
+    pub(crate) fn new(stream: TcpStream, patience: Duration, counts: Arc<Counts>, place: OwnedSemaphorePermit) -> Self {
+        counts.connections.add(1);
+        Self {
+            stream,
+            patience,
+            waiting: Box::pin(sleep(patience)),
+            is_waiting: false,
+            counts,
+            _place: place,
+        }
+    }
+
+    /// Passes on what a write gave, or fails when it has waited too long.
+    fn judge<T>(&mut self, written: Poll<io::Result<T>>, context: &mut Context<'_>) -> Poll<io::Result<T>> {
+        if written.is_ready() {
+            self.is_waiting = false;
+            return written;
+        }
+        if !self.is_waiting {
+            self.is_waiting = true;
+            let until = Instant::now() + self.patience;
+            self.waiting.as_mut().reset(until);
+        }
+        match self.waiting.as_mut().poll(context) {
+            Poll::Pending => Poll::Pending,
+            Poll::Ready(()) => {
+                self.counts.stalled.add(1);
+                Poll::Ready(Err(io::ErrorKind::TimedOut.into()))
+            }
+        }
+    }
+}
+
+impl Drop for Patient {
+    fn drop(&mut self) {
+        self.counts.connections.subtract(1);
+    }
+}
+
+impl AsyncRead for Patient {
+    fn poll_read(mut self: Pin<&mut Self>, cx: &mut Context<'_>, to: &mut ReadBuf<'_>) -> Poll<io::Result<()>> {
+        Pin::new(&mut self.stream).poll_read(cx, to)
+    }
+}
+
+impl AsyncWrite for Patient {
+    fn poll_write(mut self: Pin<&mut Self>, cx: &mut Context<'_>, bytes: &[u8]) -> Poll<io::Result<usize>> {
+        let written = Pin::new(&mut self.stream).poll_write(cx, bytes);
+        self.judge(written, cx)
+    }
+
+    fn poll_write_vectored(
+        mut self: Pin<&mut Self>,
+        cx: &mut Context<'_>,
+        parts: &[io::IoSlice<'_>],
+    ) -> Poll<io::Result<usize>> {
+        let written = Pin::new(&mut self.stream).poll_write_vectored(cx, parts);
+        self.judge(written, cx)
+    }
+
+    fn is_write_vectored(&self) -> bool {
+        self.stream.is_write_vectored()
+    }
+
+    fn poll_flush(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<io::Result<()>> {
+        Pin::new(&mut self.stream).poll_flush(cx)
+    }
+
+    fn poll_shutdown(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<io::Result<()>> {
+        Pin::new(&mut self.stream).poll_shutdown(cx)
+    }
+}

@@ -1,0 +1,200 @@
+//! What pages of live streams get.
+
+use crate::harness::{Stage, ada, ask};
+use posewire::stats::Statistics;
+use posewire::{Item, Notice};
+use posewire_motion::{DVec3, Frame, Skeleton, Subject};
+use std::sync::Arc;
+use std::time::Duration;
+
+#[test]
+fn a_page_first_hears_who_is_there_and_then_sees_them_move() {
+    let mut stage = Stage::new();
+    stage.walk(&ada(), 1, 0.25);
+    let mut page = stage.page();
+    let scene = page.words("scene");
+    assert_eq!(
+        (&scene["mode"], &scene["subjects"][0]["name"]),
+        (&"live".into(), &"Ada".into())
+    );
+    assert_eq!(scene["source"][0], "mxtp://127.0.0.1:9763");
+    assert_eq!(scene["subjects"][0]["kind"], "person");
+    let first = page.moved();
+    assert_eq!(
+        (first.records[0].sample, first.records[0].position[0]),
+        (1, [0.25, 0.0, 1.0])
+    );
+
+    stage.walk(&ada(), 2, 0.5);
+    let second = page.moved();
+    assert_eq!(
+        (second.records[0].sample, second.records[0].position[0]),
+        (2, [0.5, 0.0, 1.0])
+    );
+    assert!(second.clock_s >= first.clock_s && second.number > first.number);
+    let told = ask(stage.address(), "/api/scene").json();
+    assert_eq!(told["subjects"], scene["subjects"]);
+    assert_eq!(told["type"], serde_json::Value::Null);
+}
+
+#[test]
+fn only_subjects_with_something_new_are_in_a_tick() {
+    let mut stage = Stage::new();
+    let bob = Arc::new(Subject {
+        id: 9,
+        ..Subject::new("Bob", Skeleton::standard(0, false))
+    });
+    stage.walk(&ada(), 1, 0.0);
+    stage.walk(&bob, 1, 1.0);
+    let mut page = stage.page();
+    assert_eq!(page.moved().records.len(), 2);
+    stage.walk(&bob, 2, 2.0);
+    let records = page.moved().records;
+    assert_eq!((records.len(), records[0].id, records[0].sample), (1, 1, 2));
+}
+
+#[test]
+fn a_subject_that_changes_or_sends_more_is_described_again() {
+    let mut stage = Stage::new();
+    let subject = ada();
+    stage.walk(&subject, 1, 0.0);
+    let mut page = stage.page();
+    let scene = page.words("scene");
+    assert_eq!(scene["subjects"][0]["channels"][0]["section"], "position");
+    assert_eq!(
+        scene["subjects"][0]["channels"].as_array().unwrap().len(),
+        3,
+        "velocities are worked out"
+    );
+
+    let mut frame = Frame::new(Arc::clone(&subject));
+    frame.joint_angles = vec![Some(DVec3::ZERO); 22];
+    stage.show(frame);
+    let channels = &page.words("scene")["subjects"][0]["channels"];
+    assert_eq!(
+        (&channels[3]["section"], &channels[3]["unit"]),
+        (&"joint_angles".into(), &"deg".into())
+    );
+
+    let renamed = Subject {
+        name: "Grace".to_owned(),
+        ..Subject::clone(&subject)
+    };
+    stage.push(&Item::Subject(Arc::new(renamed)));
+    assert_eq!(page.words("scene")["subjects"][0]["name"], "Grace");
+}
+
+#[test]
+fn a_plot_gets_every_sample_in_degrees() {
+    let mut stage = Stage::new();
+    let subject = ada();
+    let knee = |sample: u32| {
+        let mut frame = Frame::new(Arc::clone(&subject));
+        frame.sample = sample;
+        frame.time = Duration::from_millis(u64::from(sample) * 4);
+        frame.joint_angles = vec![Some(DVec3::Z * f64::from(sample).to_radians()); 22];
+        frame
+    };
+    stage.show(knee(0));
+    let mut page = stage.page();
+    let wish = r#"{"id":5,"subject":0,"channel":"joint_angles/jRightKnee/z"}"#;
+    let unknown = r#"{"id":6,"subject":0,"channel":"joint_angles/jTail/z"}"#;
+    page.send(&format!(r#"{{"type":"plot","channels":[{wish},{unknown}]}}"#));
+    let mut plotted = Vec::new();
+    let mut sample = 0;
+    // Samples that come before the wish is heard are not in it.
+    while plotted.is_empty() || sample % 100 != 0 {
+        sample += 1;
+        stage.show(knee(sample));
+        plotted.extend(page.series_until_sample(sample));
+    }
+    while plotted
+        .last()
+        .is_none_or(|(time, _): &(f64, f32)| *time < f64::from(sample) * 0.004)
+    {
+        let series = page.series();
+        assert_eq!(series.id, 5);
+        plotted.extend(series.samples());
+    }
+    let first = (plotted[0].0 / 0.004).round() as u32;
+    assert_eq!(plotted.len() as u32, sample - first + 1);
+    for (at, (time, angle)) in (first..).zip(plotted) {
+        assert!(
+            (time - f64::from(at) * 0.004).abs() < 1e-9 && (angle - at as f32).abs() < 1e-3,
+            "{at}: {time} {angle}"
+        );
+    }
+}
+
+#[test]
+fn a_sample_that_lost_its_pose_shows_the_one_before() {
+    let mut stage = Stage::new();
+    let subject = ada();
+    stage.walk(&subject, 1, 0.25);
+    let mut frame = Frame::new(subject);
+    frame.sample = 2;
+    frame.joint_angles = vec![Some(DVec3::ZERO); 22];
+    stage.show(frame);
+    let record = &stage.page().moved().records[0];
+    assert_eq!(
+        (record.sample, record.flags, record.position[0]),
+        (2, 1, [0.25, 0.0, 1.0])
+    );
+}
+
+#[test]
+fn states_follow_the_stream_and_come_back() {
+    let mut stage = Stage::new();
+    stage.walk(&ada(), 1, 0.0);
+    let mut page = stage.page();
+    let mut states = Vec::new();
+    while states.last() != Some(&2) {
+        states.push(page.moved().records[0].state);
+    }
+    // A busy machine may be too slow to see it live.
+    assert!(states == [0, 1, 2] || states == [1, 2] || states == [2], "{states:?}");
+    for sample in 2.. {
+        stage.walk(&ada(), sample, 0.0);
+        let record = page.moved().records.remove(0);
+        if (record.state, record.sample) == (0, sample) {
+            break;
+        }
+    }
+}
+
+#[test]
+fn how_the_streams_are_doing_is_told_as_monitor_tells_it() {
+    let mut stage = Stage::new();
+    let mut page = stage.page();
+    assert_eq!(page.words("statistics")["sources"], serde_json::json!([]));
+    let statistics = Statistics {
+        datagrams: 7,
+        malformed: 2,
+        ..Statistics::default()
+    };
+    stage.push(&Item::Statistics(Arc::new(statistics)));
+    let told = page.words("statistics");
+    let source = &told["sources"][0];
+    assert_eq!(
+        (&source["source"], &source["server"]),
+        (&0.into(), &serde_json::Value::Null)
+    );
+    assert_eq!(
+        (&source["receiver"]["datagrams"], &source["receiver"]["malformed"]),
+        (&7.into(), &2.into())
+    );
+    assert_eq!(told["page"]["connections"], 1);
+    let label = "posewire_malformed_total{source=\"mxtp://127.0.0.1:9763\"}";
+    assert_eq!(stage.metric(label), 2);
+}
+
+#[test]
+fn notices_and_the_end_are_told() {
+    let mut stage = Stage::new();
+    let mut page = stage.page();
+    let peer = "10.0.0.5:1510".to_owned();
+    stage.push(&Item::Notice(Notice::Connected { peer }));
+    assert_eq!(page.words("notice")["text"], "connected to 10.0.0.5:1510");
+    drop(stage.server);
+    assert_eq!(u16::from(page.closed()), 1001);
+}

@@ -1,0 +1,106 @@
+/** The files that are played: what they hold, and their markers and gaps to go to. */
+
+import { h } from '../dom/h';
+import { clock, count, hertz } from '../model/format';
+import type { Room } from '../model/room';
+import type { Take } from '../protocol/types';
+import type { Part } from './performers';
+
+/** `go` shows a frame of a take. */
+export function takes(room: Room, go: (take: Take, frame: number) => void): Part {
+  const body = h('div', { class: 'takes' });
+  const element = h('section', { class: 'block', hidden: true }, h('h2', {}, 'Takes'), body);
+  let shown: Take[] | null = null;
+  const refresh = (): void => {
+    if (shown === room.takes || room.takes.length === 0) return;
+    shown = room.takes;
+    element.hidden = false;
+    body.replaceChildren(...shown.map((take) => takeBlock(take, shown?.length === 1, go)));
+  };
+  return { element, refresh };
+}
+
+function takeBlock(take: Take, open: boolean, go: (take: Take, frame: number) => void): HTMLElement {
+  const name = h('span', { class: 'summary-name' }, take.file);
+  const facts = [
+    fact('Frames', count(take.frames)),
+    fact('Rate', hertz(take.rate_hz)),
+    fact('Length', clock(take.duration_s, 1)),
+  ];
+  const block = h(
+    'details',
+    {},
+    h('summary', {}, name, h('span', { class: 'summary-note' }, note(take))),
+    h('dl', { class: 'facts' }, ...facts),
+    places(
+      take,
+      'Markers',
+      take.markers.map(({ frame, name: text }) => ({ frame, text, detail: `frame ${count(frame)}` })),
+      go,
+    ),
+    places(
+      take,
+      'Gaps',
+      take.gaps.map(([frame, missing]) => gap(frame, missing)),
+      go,
+    ),
+    places(
+      take,
+      'Lost poses',
+      (take.lost_poses ?? []).map(([frame, lost]) => ({ frame, text: poses(lost), detail: `frame ${count(frame)}` })),
+      go,
+    ),
+  );
+  block.open = open;
+  return block;
+}
+
+/** "72 of 1,200 missing, 11 poses missing". */
+function note(take: Take): string {
+  const sum = (all: [number, number][]): number => all.reduce((total, [, samples]) => total + samples, 0);
+  const missing = sum(take.gaps);
+  const lost = sum(take.lost_poses ?? []);
+  const parts = [];
+  if (missing > 0) parts.push(`${count(missing)} of ${count(take.frames + missing)} missing`);
+  if (lost > 0) parts.push(poses(lost));
+  return parts.join(', ') || 'complete';
+}
+
+function poses(lost: number): string {
+  return lost === 1 ? '1 pose missing' : `${count(lost)} poses missing`;
+}
+
+function gap(frame: number, missing: number): Place {
+  return {
+    frame,
+    text: missing === 1 ? '1 sample missing' : `${count(missing)} samples missing`,
+    detail: `behind frame ${count(frame)}`,
+  };
+}
+
+interface Place {
+  frame: number;
+  text: string;
+  detail: string;
+}
+
+function places(take: Take, title: string, all: Place[], go: (take: Take, frame: number) => void): HTMLElement | null {
+  if (all.length === 0) return null;
+  const rows = all.slice(0, SHOWN).map(({ frame, text, detail }) => {
+    const onclick = (): void => go(take, frame);
+    return h(
+      'li',
+      {},
+      h('button', { type: 'button', onclick }, h('span', {}, text), h('span', { class: 'detail' }, detail)),
+    );
+  });
+  const more = all.length > SHOWN ? h('li', { class: 'aside' }, `and ${count(all.length - SHOWN)} more`) : null;
+  return h('div', { class: 'places' }, h('h3', {}, title), h('ul', {}, ...rows, more));
+}
+
+function fact(name: string, value: string): HTMLElement {
+  return h('div', {}, h('dt', {}, name), h('dd', {}, value));
+}
+
+/** Markers and gaps that are listed of each take. */
+const SHOWN = 100;
