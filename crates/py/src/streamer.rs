@@ -9,6 +9,7 @@ use posewire::sink::{MxtpSink, MxtpSinkOptions, NatNetSink, NatNetSinkOptions};
 use posewire::stop::Stop;
 use posewire::{Feed, Item, Session, Sink};
 use posewire_motion::{CenterOfMass, DQuat, DVec3, Frame, Section, Subject};
+use posewire_mxtp::motion::MessageTypes;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -47,12 +48,10 @@ pub(crate) fn streamer(
         .map(|(id, name)| subject(id, name, &skeleton, rate))
         .collect();
     let urls = urls.extract::<Vec<String>>()?;
-    let types = types.map(str::parse).transpose();
-    let types = types.map_err(|error: posewire_mxtp::Error| usage(error.to_string(), "as in types=\"02,12,13,20\""))?;
-    let options = MxtpSinkOptions {
-        types: types.unwrap_or_default(),
-        ..MxtpSinkOptions::default()
-    };
+    let mut options = MxtpSinkOptions::default();
+    if let Some(types) = types {
+        options.types = message_types(types)?;
+    }
     let sinks = py
         .detach(|| open(&urls, &subjects, options, rate))
         .map_err(|error| raised(&error))?;
@@ -71,6 +70,15 @@ pub(crate) fn streamer(
         subjects,
         running: Mutex::new(Some(Running { session, feed })),
     })
+}
+
+fn message_types(text: &str) -> PyResult<MessageTypes> {
+    let types = text.parse().unwrap_or(MessageTypes::NONE);
+    if types.is_empty() || types.iter().any(|one| !MessageTypes::ALL.contains(one)) {
+        let message = format!("expected datagram types with two digits and commas, found {text:?}");
+        return Err(usage(message, format!("use all, or some of {}", MessageTypes::ALL)));
+    }
+    Ok(types)
 }
 
 fn subject(id: u32, name: &str, skeleton: &posewire_motion::Skeleton, rate: f64) -> Arc<Subject> {
