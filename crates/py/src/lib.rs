@@ -22,6 +22,7 @@
 #![allow(clippy::needless_pass_by_value, reason = "Python's arguments come by value")]
 
 mod array;
+mod arrow;
 mod command;
 mod decode;
 mod error;
@@ -45,6 +46,8 @@ mod _posewire {
 
     #[pymodule_export]
     use super::array::Column;
+    #[pymodule_export]
+    use super::arrow::Table;
     #[pymodule_export]
     use super::command::main;
     #[pymodule_export]

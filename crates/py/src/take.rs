@@ -1,6 +1,7 @@
 //! A take as Python has it.
 
 use crate::array;
+use crate::arrow::{self, Table};
 use crate::frame::Frame;
 use crate::section::{self, missing};
 use crate::skeleton::Skeleton;
@@ -274,6 +275,15 @@ impl Take {
             recording
         });
         Ok(Self::new(completed, self.received))
+    }
+
+    /// The take as a table for polars, pyarrow, DuckDB and others: polars.from_arrow(take.to_arrow()).
+    ///
+    /// A row for each sample: subject, sample, time, and a column for each number, as position_Pelvis_x; units are those of the
+    /// arrays, null is not tracked. `sections` are names of sections; all of them if left out.
+    #[pyo3(signature = (sections = None))]
+    fn to_arrow(&self, py: Python<'_>, sections: Option<Vec<String>>) -> PyResult<Table> {
+        arrow::table(py, self, sections.as_deref())
     }
 
     /// Writes a file in the format that its name ends in, or that `format` names: mvnx, mvnx.gz, csv, bvh, c3d, trc, mot, sto, gltf,
