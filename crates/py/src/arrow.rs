@@ -13,7 +13,7 @@ use std::collections::HashSet;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// A table that polars, pyarrow, DuckDB and pandas take by the Arrow PyCapsule interface: polars.from_arrow(table),
+/// A table that polars, pyarrow, DuckDB and pandas take by the Arrow PyCapsule interface: polars.DataFrame(table),
 /// pyarrow.table(table).
 #[pyclass(frozen, module = "posewire")]
 pub(crate) struct Table {

@@ -52,9 +52,8 @@ pub(crate) fn streamer(
     if let Some(types) = types {
         options.types = message_types(types)?;
     }
-    let sinks = py
-        .detach(|| open(&urls, &subjects, options, rate))
-        .map_err(|error| raised(&error))?;
+    let opened = py.detach(|| open(&urls, &subjects, options, rate));
+    let (sinks, urls) = opened.map_err(|error| raised(&error))?;
     if sinks.is_empty() {
         return Err(usage(
             "expected where to send to, found nothing",
@@ -89,34 +88,43 @@ fn subject(id: u32, name: &str, skeleton: &posewire_motion::Skeleton, rate: f64)
     })
 }
 
+/// Opens the sinks, and tells where they send to.
 fn open(
     urls: &[String],
     subjects: &[Arc<Subject>],
     options: MxtpSinkOptions,
     rate: f64,
-) -> posewire::Result<Vec<Box<dyn Sink>>> {
-    let targets = urls
-        .iter()
-        .map(|url| url.parse())
-        .collect::<posewire::Result<Vec<Endpoint>>>()?;
-    let (natnet, mxtp): (Vec<_>, Vec<_>) = targets
-        .into_iter()
-        .partition(|target| matches!(target, Endpoint::NatNet(_)));
+) -> posewire::Result<(Vec<Box<dyn Sink>>, Vec<String>)> {
+    let mut mxtp = Vec::new();
     let mut sinks: Vec<Box<dyn Sink>> = Vec::new();
-    if !mxtp.is_empty() {
-        sinks.push(Box::new(MxtpSink::open(&mxtp, options)?));
-    }
-    for target in natnet {
-        let Endpoint::NatNet(address) = target else { continue };
+    let mut progress = Vec::new();
+    for url in urls {
+        let target = url.parse::<Endpoint>()?;
+        let Endpoint::NatNet(address) = target else {
+            mxtp.push(target);
+            continue;
+        };
         let options = NatNetSinkOptions {
             rate: Some(rate),
             ..NatNetSinkOptions::default()
         };
         let mut sink = NatNetSink::open(&address, options)?;
         subjects.iter().try_for_each(|subject| sink.describe(subject))?;
+        progress.push(sink.progress());
         sinks.push(Box::new(sink));
     }
-    Ok(sinks)
+    if !mxtp.is_empty() {
+        let sink = MxtpSink::open(&mxtp, options)?;
+        progress.push(sink.progress());
+        sinks.push(Box::new(sink));
+    }
+    let targets = progress.iter().flat_map(|progress| {
+        let progress = progress.lock().unwrap_or_else(PoisonError::into_inner);
+        let endpoints = progress.targets.iter().map(|target| target.endpoint.to_string());
+        endpoints.collect::<Vec<_>>()
+    });
+    let targets = targets.collect();
+    Ok((sinks, targets))
 }
 
 /// Sends samples as a suit does. Use it as a context manager, or close it.

@@ -277,7 +277,7 @@ impl Take {
         Ok(Self::new(completed, self.received))
     }
 
-    /// The take as a table for polars, pyarrow, DuckDB and others: polars.from_arrow(take.to_arrow()).
+    /// The take as a table for polars, pyarrow, DuckDB and others: polars.DataFrame(take.to_arrow()).
     ///
     /// A row for each sample: subject, sample, time, and a column for each number, as position_Pelvis_x; units are those of the
     /// arrays, null is not tracked. `sections` are names of sections; all of them if left out.

