@@ -4,6 +4,8 @@ use crate::error::{exception, usage};
 use posewire_natnet::Version;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyList};
+use std::borrow::Cow;
+use std::collections::HashSet;
 
 /// What the bytes of one datagram of MXTP or NatNet say, field by field, as dicts and lists.
 ///
@@ -43,6 +45,7 @@ fn mxtp(decoded: &Bound<'_, PyDict>, data: &[u8]) -> PyResult<()> {
         return Err(refused("MXTP", &error));
     }
     let py = decoded.py();
+    let names = Names::of(explanation.fields.iter().map(|field| field.name.as_str()));
     for field in &explanation.fields {
         let value = match &field.value {
             Value::Unsigned(number) => number.into_pyobject(py)?.into_any(),
@@ -51,7 +54,7 @@ fn mxtp(decoded: &Bound<'_, PyDict>, data: &[u8]) -> PyResult<()> {
             Value::Text(text) => text.into_pyobject(py)?.into_any(),
             Value::Bytes(bytes) => PyBytes::new(py, bytes).into_any(),
         };
-        put(decoded, &field.name, value)?;
+        put(decoded, &names.apart(&field.name), value)?;
     }
     let quirks: Vec<_> = explanation.quirks.iter().map(|quirk| quirk.to_string()).collect();
     decoded.set_item("quirks", quirks)
@@ -64,6 +67,7 @@ fn natnet(decoded: &Bound<'_, PyDict>, data: &[u8], version: &str) -> PyResult<(
         return Err(refused("NatNet", &error));
     }
     let py = decoded.py();
+    let names = Names::of(explanation.fields.iter().map(|field| field.name.as_str()));
     for field in &explanation.fields {
         let value = match &field.value {
             Value::Unsigned(number) => number.into_pyobject(py)?.into_any(),
@@ -73,7 +77,7 @@ fn natnet(decoded: &Bound<'_, PyDict>, data: &[u8], version: &str) -> PyResult<(
             Value::Text(text) => text.into_pyobject(py)?.into_any(),
             Value::Bytes(bytes) => PyBytes::new(py, bytes).into_any(),
         };
-        put(decoded, &field.name, value)?;
+        put(decoded, &names.apart(&field.name), value)?;
     }
     let quirks: Vec<_> = explanation.quirks.iter().map(|quirk| quirk.to_string()).collect();
     decoded.set_item("quirks", quirks)
@@ -98,6 +102,29 @@ fn refused(protocol: &str, error: &dyn std::fmt::Display) -> PyErr {
         format!("no datagram of {protocol}: {error}"),
         Some(help.to_owned()),
     )
+}
+
+/// Which names of a datagram's fields are those of lists.
+struct Names<'a> {
+    lists: HashSet<&'a str>,
+}
+
+impl<'a> Names<'a> {
+    fn of(paths: impl Iterator<Item = &'a str>) -> Self {
+        let lists = paths.flat_map(|path| path.match_indices('[').map(move |(end, _)| &path[..end]));
+        Self { lists: lists.collect() }
+    }
+
+    /// A path on which no name is that of a list and of something else: beside `rigid_bodies[0].id`, `rigid_bodies.count` is
+    /// `rigid_bodies_count`.
+    fn apart<'p>(&self, path: &'p str) -> Cow<'p, str> {
+        let dots = path.match_indices('.').map(|(dot, _)| dot);
+        let shared = dots.filter(|dot| self.lists.contains(&path[..*dot]));
+        shared.fold(Cow::Borrowed(path), |mut path, dot| {
+            path.to_mut().replace_range(dot..=dot, "_");
+            path
+        })
+    }
 }
 
 /// Puts a value where its dotted path says: `segments[0].position.x`.
