@@ -3,9 +3,9 @@
 use crate::plain::printable;
 use posewire::remote::Remote;
 use posewire::stop::Stop;
-use posewire::{Item, Result, Sink, SourceId, Wants};
+use posewire::{Item, Notice, Result, Sink, SourceId, Wants};
+use std::collections::BTreeMap;
 use std::io::{IsTerminal, Write};
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
@@ -102,15 +102,31 @@ pub(crate) fn say(text: impl std::fmt::Display) {
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
 
-/// Says what a source has to say, and keeps how many datagrams were lost on this machine before the source could read them.
+/// Says what sources have to say, and keeps what of them was lost.
 #[derive(Clone, Default)]
 pub(crate) struct Teller {
-    lost_here: Arc<AtomicU64>,
+    heard: Arc<Mutex<Heard>>,
+}
+
+#[derive(Default)]
+struct Heard {
+    lost_here: BTreeMap<SourceId, u64>,
+    is_damaged: bool,
 }
 
 impl Teller {
+    /// How many datagrams were lost on this machine before the sources could read them.
     pub(crate) fn lost_here(&self) -> u64 {
-        self.lost_here.load(Ordering::Relaxed)
+        self.heard().lost_here.values().sum()
+    }
+
+    /// Whether a file ended before its end.
+    pub(crate) fn is_damaged(&self) -> bool {
+        self.heard().is_damaged
+    }
+
+    fn heard(&self) -> MutexGuard<'_, Heard> {
+        self.heard.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -122,13 +138,16 @@ impl Sink for Teller {
         }
     }
 
-    fn accept(&mut self, _: SourceId, item: &Item) -> Result<()> {
+    fn accept(&mut self, source: SourceId, item: &Item) -> Result<()> {
         match item {
             Item::Notice(notice) => {
+                self.heard().is_damaged |= matches!(notice, Notice::Damaged { .. });
                 end_progress();
                 say(notice);
             }
-            Item::Statistics(statistics) => self.lost_here.store(statistics.lost_here(), Ordering::Relaxed),
+            Item::Statistics(statistics) => {
+                self.heard().lost_here.insert(source, statistics.lost_here());
+            }
             _ => {}
         }
         Ok(())

@@ -57,6 +57,14 @@ impl Version {
         }
     }
 
+    /// Whether it is `major.minor` of a time whose layouts are known: from the oldest of [`LAYOUTS`](Self::LAYOUTS) to
+    /// [`LATEST`](Self::LATEST).
+    pub fn is_known(self) -> bool {
+        let [oldest, ..] = Self::LAYOUTS;
+        let is_plain = Self::new(self.major, self.minor) == self;
+        is_plain && (oldest..=Self::LATEST).contains(&self)
+    }
+
     /// The four bytes as they stand in server infos and connection options.
     pub const fn to_bytes(self) -> [u8; 4] {
         [self.major, self.minor, self.build, self.revision]
@@ -243,6 +251,15 @@ mod tests {
         assert!(Version::new(3, 0) > Version::new(2, 11));
         assert!(Version::new(2, 11).has_devices() && !Version::new(2, 10).has_devices());
         assert!(Version::LAYOUTS.is_sorted());
+    }
+
+    #[test]
+    fn versions_between_the_oldest_and_the_latest_are_known() {
+        assert!(Version::LAYOUTS.iter().all(|version| version.is_known()));
+        assert!(Version::new(2, 10).is_known());
+        for unknown in [[1, 3, 0, 0], [4, 6, 0, 0], [3, 1, 0, 1], [0; 4]] {
+            assert!(!Version::from(unknown).is_known(), "{unknown:?}");
+        }
     }
 
     #[test]

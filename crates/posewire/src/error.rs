@@ -297,6 +297,24 @@ pub enum Error {
         /// The file.
         path: PathBuf,
     },
+    /// A file that would be replaced by what is made of it.
+    #[error("{} would be written over itself", path.display())]
+    OntoItself {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file that was to be replaced while somebody records into it.
+    #[error("{} is being recorded", path.display())]
+    BeingRecorded {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file that somebody removed or replaced while it was recorded, with what was in it.
+    #[error("{} was removed or replaced while it was recorded", path.display())]
+    Removed {
+        /// The file.
+        path: PathBuf,
+    },
     /// A file that is no MCAP file.
     #[error("{path} is not an MCAP file")]
     NotMcap {
@@ -308,6 +326,14 @@ pub enum Error {
     Compressed {
         /// The file.
         path: PathBuf,
+    },
+    /// A recording that has damage in it, where it was to be replaced by what comes before that.
+    #[error("{path} is damaged, and what follows the damage would be lost: {problem}")]
+    DamagedWithin {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        problem: String,
     },
     /// Work that was stopped before its end.
     #[error("stopped while {what}")]
@@ -402,6 +428,7 @@ impl Error {
                 | Self::WriteOnly { .. }
                 | Self::Fixed { .. }
                 | Self::Exists { .. }
+                | Self::OntoItself { .. }
                 | Self::NoSamples { .. }
                 | Self::NewRate { .. }
                 | Self::Feature { .. }

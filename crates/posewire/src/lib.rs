@@ -30,6 +30,7 @@
 //! # Ok::<(), posewire::Error>(())
 //! ```
 
+mod beside;
 pub mod capture;
 pub mod clock;
 mod datagram;

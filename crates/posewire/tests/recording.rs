@@ -1,7 +1,8 @@
 //! Whatever a file holds, going through it and recovering it end, cause no panic and take no more memory or disk than it has.
 
-use posewire::recording::{Survey, Writer, WriterOptions, recover};
-use posewire::{Datagram, SourceId, Wire};
+use posewire::capture::{Capture, CaptureOptions};
+use posewire::recording::{Survey, Writer, WriterOptions, is_being_recorded, recover};
+use posewire::{Datagram, Error, SourceId, Wire};
 use posewire_motion::{DQuat, DVec3, Frame, Skeleton, Stamp, Subject};
 use proptest::prelude::*;
 use proptest::sample::Index;
@@ -52,6 +53,21 @@ fn survive(bytes: &[u8]) -> Option<u64> {
     Some(recovered.messages)
 }
 
+/// The numbers of the datagrams that are read of a file of these bytes, where their payloads are right.
+fn played(bytes: &[u8]) -> Option<Vec<u8>> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("take.mcap");
+    fs::write(&path, bytes).unwrap();
+    let capture = Capture::open(&path, &CaptureOptions::default()).ok()?;
+    let datagrams = capture.map(|captured| captured.unwrap().datagram.bytes);
+    let number = |bytes: Box<[u8]>| {
+        let number = bytes.len() as u8;
+        assert!(bytes.iter().all(|byte| *byte == number), "a datagram that never came");
+        number
+    };
+    Some(datagrams.map(number).collect())
+}
+
 fn assert_recovered(whole: &Path, before: &Survey, messages: u64, length: u64) {
     let survey = Survey::of(whole).unwrap();
     assert!(survey.complete, "{survey:?}");
@@ -89,6 +105,77 @@ fn a_recording_cut_anywhere_gives_what_is_whole() {
     assert_eq!(before, 2 * MESSAGES);
 }
 
+#[test]
+fn no_datagram_is_played_that_never_came() {
+    let numbers: Vec<_> = (0..MESSAGES as u8).collect();
+    assert_eq!(played(&WHOLE).as_ref(), Some(&numbers));
+    let payload = [20; 20];
+    let place = WHOLE.windows(payload.len()).position(|window| window == payload);
+    let mut bytes = WHOLE.clone();
+    bytes[place.unwrap()] ^= 1;
+    // The chunk that it is in has four messages of each kind.
+    assert_eq!(played(&bytes).as_deref(), Some(&numbers[..20]));
+}
+
+#[test]
+fn a_file_that_is_damaged_within_is_not_replaced_by_what_comes_before() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, other) = (folder.path().join("take.mcap"), folder.path().join("other.mcap"));
+    let mut bytes = WHOLE.clone();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(&path, &bytes).unwrap();
+    let refused = recover(&path, &path).unwrap_err();
+    assert!(matches!(refused, Error::DamagedWithin { .. }), "{refused}");
+    assert_eq!(fs::read(&path).unwrap(), bytes);
+    assert!(recover(&path, &other).unwrap().damage.is_some());
+    assert_eq!(
+        fs::read_dir(folder.path()).unwrap().count(),
+        2,
+        "a draft is left behind"
+    );
+}
+
+/// What a process leaves that was killed in a write, and what a machine may whose power failed.
+#[test]
+fn a_file_that_was_cut_off_is_replaced_by_what_is_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("take.mcap");
+    let cut = &WHOLE[..WHOLE.len() / 2];
+    for tail in [0, 7, 4096] {
+        fs::write(&path, [cut, &vec![0; tail]].concat()).unwrap();
+        let recovered = recover(&path, &path);
+        assert!(recovered.is_ok(), "{tail}: {recovered:?}");
+        assert!(Survey::of(&path).unwrap().complete);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_file_that_is_being_recorded_is_neither_recovered_nor_overwritten() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, other) = (folder.path().join("take.mcap"), folder.path().join("other.mcap"));
+    let create = |overwrite| {
+        let options = WriterOptions {
+            overwrite,
+            ..WriterOptions::default()
+        };
+        Writer::create(&path, &["mxtp://127.0.0.1:9763".to_owned()], options)
+    };
+    let writer = create(false).unwrap();
+    assert!(is_being_recorded(&path));
+    let expected = Error::BeingRecorded { path: path.clone() };
+    assert_eq!(recover(&path, &path).unwrap_err(), expected);
+    assert_eq!(create(true).unwrap_err(), expected);
+    assert!(Survey::of(&path).unwrap().sources.len() == 1, "it was emptied");
+    assert!(recover(&path, &other).is_ok());
+
+    writer.finish().unwrap();
+    assert!(!is_being_recorded(&path));
+    assert!(recover(&path, &path).unwrap().was_complete);
+    assert!(create(true).is_ok());
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
@@ -98,6 +185,7 @@ proptest! {
         let place = place.index(bytes.len());
         bytes[place] ^= 1_u8 << bit;
         survive(&bytes);
+        played(&bytes);
     }
 
     #[test]

@@ -14,12 +14,8 @@ pub(super) fn moment(text: &str) -> Result<Duration, String> {
 
 /// A version of which the layout is known.
 pub(super) fn bitstream(text: &str) -> Result<Version, String> {
+    let version = text.parse().ok().filter(|version: &Version| version.is_known());
     let [oldest, ..] = Version::LAYOUTS;
-    let is_known = |version: &Version| {
-        let plain = Version::new(version.major, version.minor) == *version;
-        plain && (oldest..=Version::LATEST).contains(version)
-    };
-    let version = text.parse().ok().filter(is_known);
     version.ok_or_else(|| format!("expected a version from {oldest} to {}", Version::LATEST))
 }
 

@@ -136,11 +136,7 @@ fn say_silent(endpoint: &Endpoint) {
 fn end(progress: &RecordProgress, outcome: posewire::Result<Outcome>) -> anyhow::Result<End> {
     match (outcome, &progress.failure) {
         (Err(error), Some(failure)) if error == *failure => {
-            say(format_args!("error: {error}"));
-            let help = error.help().unwrap_or_default();
-            say(format_args!(
-                "help: {help}; what was written can be read, posewire inspect --recover completes it"
-            ));
+            tell_failure(failure);
             Ok(End::LostData)
         }
         (outcome, _) => {
@@ -148,6 +144,15 @@ fn end(progress: &RecordProgress, outcome: posewire::Result<Outcome>) -> anyhow:
             Ok(End::with_lost(progress.lost()))
         }
     }
+}
+
+/// Says why a recording could not be written to its end.
+fn tell_failure(failure: &posewire::Error) {
+    say(format_args!("error: {failure}"));
+    let help = failure.help().unwrap_or_default();
+    say(format_args!(
+        "help: {help}; what was written can be read, posewire inspect --recover completes it"
+    ));
 }
 
 fn read(progress: &Mutex<RecordProgress>) -> RecordProgress {

@@ -41,7 +41,8 @@ pub(super) fn run(arguments: &Replay) -> anyhow::Result<End> {
     } else {
         say(summary(&replayed));
     }
-    Ok(End::with_lost(replayed.lost()))
+    let is_damaged = replayed.damage.is_some();
+    Ok(End::with_lost(replayed.lost() + u64::from(is_damaged)))
 }
 
 fn options(arguments: &Replay, faults: Option<FaultPlan>) -> ReplayOptions {
@@ -109,7 +110,10 @@ fn summary(replayed: &Replayed) -> String {
     );
     for (count, why) in [
         (replayed.without_target, "left out: no target of their protocol"),
-        (replayed.asked, "left out: NatNet clients had sent them"),
+        (
+            replayed.asked,
+            "left out: questions of NatNet clients and their answers",
+        ),
     ] {
         if count > 0 {
             _ = write!(text, "\n  {} {why}", plural(count, "datagram"));

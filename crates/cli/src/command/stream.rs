@@ -74,7 +74,9 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
         say(render::stream_summary(&progress, unsent));
     }
     outcome?;
-    Ok(End::with_lost(progress.lost() + unsent))
+    Ok(End::with_lost(
+        progress.lost() + unsent + u64::from(teller.is_damaged()),
+    ))
 }
 
 fn playback_options(arguments: &Playback, targets: &[Endpoint]) -> PlaybackOptions {

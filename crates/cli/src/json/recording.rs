@@ -113,6 +113,7 @@ pub(crate) struct RecordingFileRecord<'a> {
     subjects: Vec<SubjectFileRecord<'a>>,
     other: u64,
     lost: Option<u64>,
+    continued: bool,
 }
 
 #[derive(Serialize)]
@@ -157,6 +158,7 @@ impl<'a> RecordingFileRecord<'a> {
             subjects: survey.subjects.iter().map(subject_file).collect(),
             other: survey.other,
             lost: survey.lost,
+            continued: survey.continued,
         }
     }
 }

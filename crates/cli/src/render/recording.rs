@@ -90,8 +90,9 @@ pub(crate) fn recording(file: &Path, bytes: u64, survey: &Survey) -> String {
     if let (Some(host), Some(system)) = (about("host"), about("system")) {
         row(&mut text, "recorded on", &format!("{host}, {system}"));
     }
-    if let Some(part) = about("part").filter(|part| part != "1") {
-        row(&mut text, "part", &part);
+    if let Some(part) = about("part").filter(|part| part != "1" || survey.continued) {
+        let goes_on = if survey.continued { ", another follows" } else { "" };
+        row(&mut text, "part", &format!("{part}{goes_on}"));
     }
     row(&mut text, "lasts", &format!("{:.3} s", seconds(survey.span)));
     let complete = if survey.complete {

@@ -153,6 +153,23 @@ fn a_split_recording_is_used_as_one() {
     );
 
     std::fs::remove_file(folder.path().join("all.pcapng")).unwrap();
+    let last = std::fs::read(folder.path().join("take-003.mcap")).unwrap();
+    std::fs::remove_file(folder.path().join("take-003.mcap")).unwrap();
+    for arguments in verbs {
+        let ended = posewire(folder.path(), arguments, b"");
+        assert_eq!(ended.code, Some(3), "{}", ended.err);
+        let problem = "take-002.mcap: the recording goes on in part 3, which is missing";
+        assert!(ended.err.contains(problem), "{}", ended.err);
+    }
+    let ended = posewire(folder.path(), &["inspect", "take.mcap"], b"");
+    assert!(
+        ended.out.contains("  part         1, another follows\n"),
+        "{}",
+        ended.out
+    );
+
+    std::fs::write(folder.path().join("take-003.mcap"), last).unwrap();
+    std::fs::remove_file(folder.path().join("all.pcapng")).unwrap();
     std::fs::remove_file(folder.path().join("take-002.mcap")).unwrap();
     for arguments in verbs {
         let ended = posewire(folder.path(), arguments, b"");

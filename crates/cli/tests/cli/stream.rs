@@ -197,7 +197,7 @@ fn a_damaged_take_is_used_up_to_the_damage_when_asked() {
     assert!(refused.err.contains("help: --salvage"), "{}", refused.err);
 
     let salvaged = posewire(folder.path(), &[&arguments[..], &["--salvage", "--json"]].concat(), b"");
-    assert_eq!(salvaged.code, Some(0), "{}", salvaged.err);
+    assert_eq!(salvaged.code, Some(3), "{}", salvaged.err);
     assert!(salvaged.err.contains("the file is damaged"), "{}", salvaged.err);
     assert_eq!(objects(&salvaged.out, "stream")[0]["frames"], 11);
     monitor.interrupt();

@@ -1,13 +1,12 @@
 //! Captures from one kind of file to another.
 
 use super::{Capture, CaptureOptions, Captured, Counts, PcapWriter, Survey};
+use crate::beside::{beside, give_name, is_same_file};
 use crate::recording::{Writer, WriterOptions};
 use crate::stop::Stop;
 use crate::{Error, Result, SourceId};
-use std::io;
 use std::path::Path;
 use std::sync::Arc;
-use tempfile::TempPath;
 
 /// What became of a capture.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -36,16 +35,20 @@ pub struct ConvertOptions {
 /// addresses. The file has a hidden name until it is whole.
 ///
 /// # Errors
-/// Those of [`Survey::of`], of [`Survey::choose`] and of the writer; [`Error::Exists`] when the file is there and is not to be
-/// overwritten, and [`Error::Stopped`] after `stop`. None of them leaves a file.
+/// Those of [`Survey::of`], of [`Survey::choose`] and of the writer; [`Error::OntoItself`] when the file is one of those that are
+/// read, [`Error::Exists`] when it is there and is not to be overwritten, and [`Error::Stopped`] after `stop`. None of them leaves
+/// a file, nor takes one away.
 pub fn convert(from: &Path, to: &Path, options: &ConvertOptions, stop: &Stop) -> Result<Converted> {
+    let mut capture = Capture::open(from, &CaptureOptions::default())?;
+    if capture.files().iter().any(|file| is_same_file(file, to)) {
+        return Err(Error::OntoItself { path: to.to_owned() });
+    }
     if !options.overwrite && to.exists() {
         return Err(Error::Exists { path: to.to_owned() });
     }
     let chosen = chosen(from, options.only.as_deref())?;
-    let mut capture = Capture::open(from, &CaptureOptions::default())?;
-    let hidden = name_beside(to)?;
-    let mut output = Output::create(from, &hidden)?;
+    let hidden = beside(to).map_err(|error| Error::write(to.display().to_string(), &error))?;
+    let mut output = Output::create(from, to, hidden.path())?;
     let mut datagrams = 0;
     for captured in capture.by_ref() {
         if stop.is_stopped() {
@@ -74,33 +77,6 @@ fn chosen(path: &Path, only: Option<&str>) -> Result<Option<u16>> {
     survey.choose(path, Some(only)).map(|source| Some(source.number))
 }
 
-/// A name in the same folder with the same ending, of a file that goes when it gets no other name.
-fn name_beside(path: &Path) -> Result<TempPath> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let ending = path.extension().unwrap_or_default().to_string_lossy();
-    let suffix = format!(".part.{ending}");
-    let mut builder = tempfile::Builder::new();
-    builder.suffix(&suffix);
-    // As any new file: the system takes away what its mask says.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let file = builder.tempfile_in(folder.unwrap_or(Path::new(".")));
-    let file = file.map_err(|error| Error::write(path.display().to_string(), &error))?;
-    Ok(file.into_temp_path())
-}
-
-fn give_name(hidden: TempPath, path: &Path, overwrite: bool) -> Result<()> {
-    let named = if overwrite {
-        hidden.persist(path)
-    } else {
-        hidden.persist_noclobber(path)
-    };
-    named.map_err(|failed| match failed.error.kind() {
-        io::ErrorKind::AlreadyExists => Error::Exists { path: path.to_owned() },
-        _ => Error::write(path.display().to_string(), &failed.error),
-    })
-}
-
 /// The file that is written.
 enum Output {
     Packets(PcapWriter),
@@ -108,11 +84,11 @@ enum Output {
 }
 
 impl Output {
-    /// Over the file that has the name.
-    fn create(from: &Path, to: &Path) -> Result<Self> {
+    /// Over the `hidden` file, which is to be called `to`.
+    fn create(from: &Path, to: &Path, hidden: &Path) -> Result<Self> {
         let is_recording = to.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mcap"));
         if !is_recording {
-            return PcapWriter::create(to, true).map(Self::Packets);
+            return PcapWriter::create(hidden, true).map(Self::Packets);
         }
         // A recording names its sources at the beginning.
         let survey = Survey::of(from, &CaptureOptions::default())?;
@@ -121,7 +97,7 @@ impl Output {
             overwrite: true,
             ..WriterOptions::default()
         };
-        let writer = Writer::create(to, &names, options)?;
+        let writer = Writer::create(hidden, &names, options)?;
         Ok(Self::Recording(Box::new(writer)))
     }
 

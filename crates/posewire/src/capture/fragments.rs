@@ -1,7 +1,7 @@
 //! IP packets that the network cut into pieces, put together again.
 
 use posewire_motion::Stamp;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::net::IpAddr;
 use std::ops::Range;
 use std::time::Duration;
@@ -27,10 +27,13 @@ pub(super) struct Fragment {
 /// Pieces that wait for the others of their packet.
 ///
 /// Pieces may come in any order and more than once; of bytes that come twice, the first are kept. A packet that lacks a piece
-/// is given up after [`PATIENCE`], as systems do, or when too many packets wait.
+/// is given up after [`PATIENCE`], as systems do, or when too many packets wait. A piece that comes again when its packet is
+/// whole is no other packet.
 #[derive(Debug, Default)]
 pub(super) struct Fragments {
     waiting: BTreeMap<Identity, Waiting>,
+    /// The last packets that were whole.
+    whole: VecDeque<(Identity, Vec<u8>)>,
     given_up: u64,
 }
 
@@ -47,15 +50,35 @@ impl Fragments {
     /// Takes a piece that was captured at `now`. Gives the packet's content when it is the last one missing.
     pub(super) fn take(&mut self, now: Stamp, fragment: Fragment, bytes: &[u8]) -> Option<Vec<u8>> {
         self.give_up_old(now);
+        if self.is_repeated(fragment, bytes) {
+            return None;
+        }
         let waiting = self.waiting.entry(fragment.of).or_insert_with(|| Waiting::new(now));
         if !waiting.add(fragment, bytes) {
             self.give_up(fragment.of);
             return None;
         }
-        if waiting.is_complete() {
-            return self.waiting.remove(&fragment.of).map(|packet| packet.bytes);
+        if !waiting.is_complete() {
+            return None;
         }
-        None
+        let whole = self.waiting.remove(&fragment.of)?.bytes;
+        if self.whole.len() == MAX_WHOLE {
+            self.whole.pop_front();
+        }
+        self.whole.push_back((fragment.of, whole.clone()));
+        Some(whole)
+    }
+
+    /// Whether a packet that is whole has this piece. Another one may have its number, and then other bytes.
+    fn is_repeated(&self, fragment: Fragment, piece: &[u8]) -> bool {
+        let end = fragment.at.saturating_add(piece.len());
+        let has_piece = |whole: &[u8]| {
+            let is_last = end == whole.len();
+            is_last == fragment.is_last && whole.get(fragment.at..end) == Some(piece)
+        };
+        let of_number = |(of, _): &&(Identity, Vec<u8>)| *of == fragment.of;
+        !self.waiting.contains_key(&fragment.of)
+            && self.whole.iter().filter(of_number).any(|(_, whole)| has_piece(whole))
     }
 
     /// Packets that were given up for want of a piece; at the end, what still waits is lost too.
@@ -161,6 +184,8 @@ const MAX_LENGTH: usize = 65_535;
 const PATIENCE: Duration = Duration::from_secs(30);
 /// With the longest packets, 16 MiB.
 const MAX_WAITING: usize = 256;
+/// With the longest packets, 4 MiB. A piece that comes again does so soon.
+const MAX_WHOLE: usize = 64;
 
 #[cfg(test)]
 mod tests {
@@ -201,6 +226,20 @@ mod tests {
     fn pieces_that_overlap_or_come_twice_do_no_harm() {
         assert_eq!(taken(&[8..24, 8..24, 0..16, 16..30]).as_deref(), Some(PACKET));
         assert_eq!(taken(&[0..8, 0..8, 16..30]), None);
+    }
+
+    #[test]
+    fn a_piece_that_comes_again_when_its_packet_is_whole_is_no_other_packet() {
+        let mut fragments = Fragments::default();
+        let take = |fragments: &mut Fragments, at: usize, bytes: &[u8]| {
+            fragments.take(Stamp(0), fragment(at, at == 8), bytes).is_some()
+        };
+        assert!(!take(&mut fragments, 0, b"AAAAAAAA") && take(&mut fragments, 8, b"B"));
+        assert!(!take(&mut fragments, 8, b"B") && !take(&mut fragments, 0, b"AAAAAAAA"));
+        assert_eq!((fragments.given_up(), fragments.waiting()), (0, 0));
+        // Another packet may begin with other bytes, and end as the one before.
+        assert!(!take(&mut fragments, 0, b"CCCCCCCC") && take(&mut fragments, 8, b"B"));
+        assert_eq!((fragments.given_up(), fragments.waiting()), (0, 0));
     }
 
     #[test]

@@ -254,7 +254,17 @@ impl Capture {
 
     /// `false` when there is none.
     fn begin_next_file(&mut self) -> io::Result<bool> {
-        let (Kind::Recording(recording), Some(next)) = (&mut self.kind, self.files.get(self.place + 1)) else {
+        let Kind::Recording(recording) = &mut self.kind else {
+            return Ok(false);
+        };
+        let Some(next) = self.files.get(self.place + 1) else {
+            // A file that was opened by itself, from the middle of a recording, stands for itself.
+            let wanted = recording
+                .next_part()
+                .filter(|part| *part as usize == self.files.len() + 1);
+            if let Some(part) = wanted {
+                self.note_damage(format!("the recording goes on in part {part}, which is missing"));
+            }
             return Ok(false);
         };
         self.place += 1;

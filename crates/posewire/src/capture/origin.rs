@@ -24,7 +24,7 @@ enum Origin {
 impl Origins {
     /// The number of a datagram's source. Sources beyond the 65,536th share the last number.
     pub(super) fn number(&mut self, datagram: &Datagram) -> u16 {
-        let origin = Origin::of(datagram);
+        let origin = self.origin(datagram);
         if let Some(number) = self.numbers.get(&origin) {
             return *number;
         }
@@ -34,6 +34,16 @@ impl Origins {
         self.numbers.insert(origin, number);
         self.names.push(origin.name());
         number
+    }
+
+    fn origin(&self, datagram: &Datagram) -> Origin {
+        let [sender, receiver] = [datagram.from, datagram.to].map(|place| Origin::NatNet(place.ip()));
+        let is_known = |origin| self.numbers.contains_key(origin);
+        // A server too says that it goes.
+        if is_natnet(datagram, &[MessageId::DISCONNECT]) && is_known(&sender) && !is_known(&receiver) {
+            return sender;
+        }
+        Origin::of(datagram)
     }
 
     /// The sources so far, as endpoints.
@@ -61,6 +71,12 @@ impl Origin {
     }
 }
 
+/// Whether a datagram is a NatNet packet of one of these kinds.
+fn is_natnet(datagram: &Datagram, kinds: &[MessageId]) -> bool {
+    let is_natnet = matches!(datagram.wire, Wire::NatNetCommand | Wire::NatNetData);
+    is_natnet && is_of(&datagram.bytes, kinds)
+}
+
 /// Whether a NatNet packet is a client's.
 pub(crate) fn is_asked(packet: &[u8]) -> bool {
     const ASKED: [MessageId; 8] = [
@@ -73,5 +89,41 @@ pub(crate) fn is_asked(packet: &[u8]) -> bool {
         MessageId::ECHO_REQUEST,
         MessageId::DISCOVERY,
     ];
-    Packet::decode(packet).is_ok_and(|packet| ASKED.contains(&packet.id))
+    is_of(packet, &ASKED)
+}
+
+fn is_of(packet: &[u8], kinds: &[MessageId]) -> bool {
+    Packet::decode(packet).is_ok_and(|packet| kinds.contains(&packet.id))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use posewire_motion::Stamp;
+
+    fn packet(from: [u8; 4], to: [u8; 4], id: MessageId) -> Datagram {
+        Datagram {
+            wire: Wire::NatNetCommand,
+            from: (from, 1510).into(),
+            to: (to, 50_000).into(),
+            received: Stamp(0),
+            bytes: [id.0.to_le_bytes(), [0; 2]].concat().into(),
+        }
+    }
+
+    #[test]
+    fn whoever_ends_a_connection_the_server_is_the_source() {
+        const SERVER: [u8; 4] = [10, 0, 0, 7];
+        // A client that listens on all its addresses.
+        const CLIENT: [u8; 4] = [0; 4];
+        let mut origins = Origins::default();
+        for datagram in [
+            packet(SERVER, CLIENT, MessageId::SERVER_INFO),
+            packet(CLIENT, SERVER, MessageId::DISCONNECT),
+            packet(SERVER, CLIENT, MessageId::DISCONNECT),
+        ] {
+            assert_eq!(origins.number(&datagram), 0);
+        }
+        assert_eq!(origins.names(), ["natnet://10.0.0.7"]);
+    }
 }

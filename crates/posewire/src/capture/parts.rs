@@ -163,6 +163,21 @@ mod tests {
     }
 
     #[test]
+    fn files_that_are_missing_at_the_end_are_said_and_the_others_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let first = recorded(folder.path(), "take.mcap", 3);
+        for (gone, left, damage) in [
+            (3, 2, "take-002.mcap: the recording goes on in part 3, which is missing"),
+            (2, 1, "the recording goes on in part 2, which is missing"),
+        ] {
+            fs::remove_file(folder.path().join(format!("take-{gone:03}.mcap"))).unwrap();
+            let mut capture = open(&first).unwrap();
+            assert_eq!(numbers(&mut capture).len(), left);
+            assert_eq!(capture.damage(), Some(damage));
+        }
+    }
+
+    #[test]
     fn a_damaged_file_does_not_keep_the_next_from_being_read() {
         let folder = tempfile::tempdir().unwrap();
         let first = recorded(folder.path(), "take.mcap", 3);

@@ -2,7 +2,7 @@
 
 use super::Captured;
 use super::parts::Place;
-use crate::recording::{RECORDING, SOURCE_RECORD};
+use crate::recording::{END, RECORDING, SOURCE_RECORD, is_continued};
 use crate::{Datagram, Wire};
 use mcap::McapError;
 use mcap::records::{Channel, MessageHeader, Metadata, Record, op};
@@ -18,6 +18,7 @@ pub(super) struct Recording {
     channels: BTreeMap<u16, Raw>,
     names: Vec<String>,
     place: Option<Place>,
+    continued: bool,
     counts: Counts,
 }
 
@@ -54,6 +55,7 @@ impl Recording {
     pub(super) fn open(from: impl Read + Send + 'static) -> Self {
         let options = LinearReaderOptions::default()
             .with_skip_end_magic(true)
+            .with_prevalidate_chunk_crcs(true)
             .with_record_length_limit(LONGEST_RECORD);
         Self {
             from: Box::new(from),
@@ -61,6 +63,7 @@ impl Recording {
             channels: BTreeMap::new(),
             names: Vec::new(),
             place: None,
+            continued: false,
             counts: Counts::default(),
         }
     }
@@ -77,6 +80,12 @@ impl Recording {
     /// Which file of which recording it is, once that was read.
     pub(super) fn place(&self) -> Option<&Place> {
         self.place.as_ref()
+    }
+
+    /// The number of the file in which the recording goes on, once the end of this one was read that says so.
+    pub(super) fn next_part(&self) -> Option<u32> {
+        let place = self.place.as_ref().filter(|_| self.continued)?;
+        place.part.checked_add(1)
     }
 
     /// Goes on with the next file of the same recording.
@@ -159,6 +168,7 @@ impl Recording {
                 part,
             });
         }
+        self.continued |= metadata.name == END && is_continued(&metadata.metadata);
         if metadata.name == SOURCE_RECORD
             && let Some(source) = value("source").and_then(|number| number.parse().ok())
         {

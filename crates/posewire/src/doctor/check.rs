@@ -140,6 +140,19 @@ impl Check {
         self.entry().remedy
     }
 
+    /// Whether it is told by the numbers and times of what comes one after the other.
+    pub(super) const fn is_of_numbering(self) -> bool {
+        matches!(
+            self,
+            Self::Loss
+                | Self::RateOff
+                | Self::ClockJump
+                | Self::UnevenArrival
+                | Self::Duplicates
+                | Self::SenderRestarts
+        )
+    }
+
     const fn entry(self) -> &'static Entry {
         &TABLE[self as usize]
     }

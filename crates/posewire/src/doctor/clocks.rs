@@ -2,6 +2,7 @@
 
 use super::Check;
 use super::finding::{Finding, plural};
+use crate::stats::Clocks;
 use posewire_motion::{Frame, Stamp, Timecode};
 use std::time::Duration;
 
@@ -55,11 +56,12 @@ impl SampleClock {
         (self.jumps > 0).then(|| Finding::new(Check::ClockJump, what))
     }
 
-    pub(super) fn of_difference(&self) -> Option<Finding> {
-        let ahead = self.ahead.filter(|ahead| ahead.abs() > DIFFERENT)?;
+    /// By what the statistics say of the two clocks: one sample that was long on its way is no difference.
+    pub(super) fn of_difference(&self, clocks: Clocks) -> Option<Finding> {
+        let ahead = self.ahead.filter(|_| clocks == Clocks::Differ)?;
         let way = if ahead < 0 { "behind" } else { "ahead of" };
         let what = format!(
-            "The sender's time of day is {:.1} s {way} that of this machine, in UTC.",
+            "The sender's time of day is {:.3} s {way} that of this machine, in UTC.",
             ahead.unsigned_abs() as f64 / 1000.0
         );
         Some(Finding::new(Check::ClocksDiffer, what))
@@ -103,8 +105,6 @@ const LEAP: f64 = 0.25;
 const SLOWEST: f64 = 0.1;
 /// What goes on further than that is a jump of the numbers.
 const MOST_MISSING: u32 = 256;
-/// Milliseconds that are more than the way and the sampling take.
-const DIFFERENT: i64 = 1000;
 const DAY: i64 = 86_400_000;
 /// Two sockets, or peers, are read one after the other.
 const OUT_OF_ORDER: Duration = Duration::from_millis(500);
@@ -141,11 +141,9 @@ mod tests {
         frame.timecode = Some(Timecode::from_milliseconds(86_399_000));
         let mut clock = SampleClock::default();
         clock.sample(&frame, true);
-        let what = clock.of_difference().unwrap().what;
-        assert!(what.contains("2.0 s behind"), "{what}");
-        frame.timecode = Some(Timecode::from_milliseconds(1_200));
-        clock.sample(&frame, true);
-        assert_eq!(clock.of_difference(), None);
+        let what = clock.of_difference(Clocks::Differ).unwrap().what;
+        assert!(what.contains("2.000 s behind"), "{what}");
+        assert_eq!(clock.of_difference(Clocks::Agree), None, "it was long on its way");
     }
 
     #[test]
@@ -154,7 +152,7 @@ mod tests {
         (frame.received, frame.timecode) = (Some(Stamp(0)), Some(Timecode::from_milliseconds(5_000_000)));
         let mut clock = SampleClock::default();
         clock.sample(&frame, false);
-        assert_eq!(clock.of_difference(), None);
+        assert_eq!(clock.of_difference(Clocks::Differ), None);
     }
 
     #[test]

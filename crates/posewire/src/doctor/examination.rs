@@ -16,6 +16,7 @@ use crate::stats::Statistics;
 use crate::{Datagram, Item, Notice};
 use posewire_motion::Up;
 use posewire_natnet::motion::Coordinates;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -123,10 +124,24 @@ impl Examination {
         if let Some(statistics) = &self.statistics {
             findings.extend(self.of_server(statistics));
             findings.extend(losses::findings(statistics, &self.figures));
+            findings.extend(self.figures.of_clocks(statistics));
             findings.extend(summary::stream(statistics));
         }
+        self.give_way(&mut findings);
         sort(&mut findings);
         findings
+    }
+
+    /// Two senders in one numbering look like losses, leaps and bursts, which are none.
+    fn give_way(&self, findings: &mut Vec<Finding>) {
+        let Some(statistics) = &self.statistics else { return };
+        let streams = statistics.streams().map(|(subject, _)| subject);
+        let mixed = streams.filter(|subject| self.senders.are_mixed(subject.map_or(0, |subject| subject.id)));
+        let places: BTreeSet<_> = mixed.map(|subject| losses::place_of(statistics, subject)).collect();
+        findings.retain(|finding| {
+            let is_there = finding.place.as_ref().is_some_and(|place| places.contains(place));
+            !(is_there && finding.check.is_of_numbering())
+        });
     }
 
     /// What is wrong with the server, of a live source or a capture of NatNet.

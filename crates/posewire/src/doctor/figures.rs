@@ -7,6 +7,7 @@ use super::landmarks::Landmarks;
 use super::lengths::Lengths;
 use super::orientation::Orientations;
 use super::values::{Finiteness, Relations};
+use crate::stats::{Statistics, SubjectStatistics};
 use posewire_motion::{Frame, Subject};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -65,6 +66,16 @@ impl Figures {
         self.by_number.values().flat_map(|figure| figure.findings(self.sender))
     }
 
+    /// Whose time of day is another than ours, as the statistics have it.
+    pub(super) fn of_clocks(&self, all: &Statistics) -> Vec<Finding> {
+        let of_subject = |of: &SubjectStatistics| {
+            let figure = self.by_number.get(&of.subject.id)?;
+            let finding = figure.clock.of_difference(of.transit?.clocks)?;
+            Some(finding.at(called(&figure.subject)))
+        };
+        all.subjects.iter().filter_map(of_subject).collect()
+    }
+
     /// Samples a second of a subject by the stream's own clock, once that has run for long enough.
     pub(super) fn rate_hz(&self, number: u32) -> Option<f64> {
         self.by_number.get(&number)?.pace.rate_hz()
@@ -115,11 +126,10 @@ impl Figure {
             .of_fit()
             .filter(|_| axes.is_none() && sender == Sender::Mxtp);
         let of_values = [self.finiteness.finding(), self.orientations.of_length()];
-        let of_time = [self.clock.of_jumps(), self.clock.of_difference()];
         let all = [relative, axes, lengths, fit]
             .into_iter()
             .chain(of_values)
-            .chain(of_time);
+            .chain([self.clock.of_jumps()]);
         all.flatten().map(|finding| finding.at(called(&self.subject))).collect()
     }
 }

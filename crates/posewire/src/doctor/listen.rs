@@ -4,7 +4,7 @@ use super::examiner::Examiner;
 use super::finding::sort;
 use super::neighbours::{OtherPorts, OtherTransport};
 use super::silence::{self, Circumstances};
-use super::system::{Traffic, addresses, taken};
+use super::system::{Traffic, addresses, holder, taken};
 use super::{Check, Finding};
 use crate::endpoint::Endpoint;
 use crate::source::PlaybackOptions;
@@ -165,9 +165,18 @@ impl<'a> Listening<'a> {
             to_nobody: traffic.to_nobody,
             packets: traffic.packets,
             addresses: addresses(),
+            other_holder: self.other_holder(other.as_ref()),
             other_transport: other.and_then(|other| other.heard()),
             elsewhere: other_ports.map(|ports| ports.heard()).unwrap_or_default(),
         }))
+    }
+
+    /// Who has the port of the other transport, where we could not have it.
+    fn other_holder(&self, other: Option<&OtherTransport>) -> Option<String> {
+        if other.is_some() || self.examiner.has_heard() {
+            return None;
+        }
+        holder(&OtherTransport::endpoint(self.endpoint)?)
     }
 
     fn result(&self, around: &Circumstances) -> Listened {

@@ -1,13 +1,12 @@
 //! What the statistics of a stream tell: losses, rates, oddities.
 
-use super::Check;
 use super::figures::{Figures, called};
 use super::finding::{Finding, plural};
-use crate::stats::{Counters, DatagramKind, Statistics, StreamStatistics};
+use super::{Check, paces};
+use crate::stats::{Counters, Statistics, StreamStatistics};
 use posewire_motion::Subject;
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use std::time::Duration;
 
 /// What is lost, late or odd, by the last numbers of a stream.
 pub(super) fn findings(all: &Statistics, figures: &Figures) -> Vec<Finding> {
@@ -23,12 +22,7 @@ pub(super) fn findings(all: &Statistics, figures: &Figures) -> Vec<Finding> {
         ];
         findings.extend(found.into_iter().flatten().map(|finding| finding.at(&place)));
     }
-    for (subject, stream) in all.streams() {
-        let rate = subject.map_or_else(|| stated_rate(all), |subject| figures.rate_hz(subject.id));
-        let found = [rate_off(all, stream, rate), uneven(stream)];
-        let place = place_of(all, subject);
-        findings.extend(found.into_iter().flatten().map(|finding| finding.at(&place)));
-    }
+    findings.extend(paces::findings(all, figures));
     findings.extend(quirks(all));
     findings
 }
@@ -42,7 +36,8 @@ fn by_place(all: &Statistics) -> BTreeMap<String, Vec<&StreamStatistics>> {
     places
 }
 
-fn place_of(all: &Statistics, subject: Option<&Arc<Subject>>) -> String {
+/// The name of a subject, or the address of the server.
+pub(super) fn place_of(all: &Statistics, subject: Option<&Arc<Subject>>) -> String {
     let server = || {
         all.server
             .as_ref()
@@ -115,51 +110,6 @@ fn restarts(counters: &[&Counters]) -> Option<Finding> {
     (!parts.is_empty()).then(|| Finding::new(Check::SenderRestarts, what))
 }
 
-/// The rate that a server states.
-fn stated_rate(all: &Statistics) -> Option<f64> {
-    all.subjects.iter().find_map(|subject| subject.subject.rate)
-}
-
-fn rate_off(all: &Statistics, stream: &StreamStatistics, nominal: Option<f64>) -> Option<Finding> {
-    let is_numbered = match stream.kind {
-        DatagramKind::Mxtp(message_type) => !matches!(message_type.number(), 12 | 13),
-        DatagramKind::NatNetFrame => true,
-    };
-    let expected = nominal? / f64::from(stream.counters.stride.unwrap_or(1));
-    let is_long_enough = all.elapsed >= Duration::from_secs(2) && stream.counters.received >= 30;
-    // What is missing was sent, or is told of elsewhere.
-    let (received, missing) = (stream.counters.received as f64, stream.counters.missing as f64);
-    let rate = stream.rate_hz * (received + missing) / received;
-    let is_off = !(0.95..1.05).contains(&(rate / expected));
-    let of_clock = if all.server.is_some() {
-        "the server says"
-    } else {
-        "by the stream's own clock it should be"
-    };
-    let what = format!(
-        "{rate:.1} of type {} a second arrive; {of_clock} {expected:.1}.",
-        stream.kind
-    );
-    (is_numbered && is_long_enough && is_off).then(|| Finding::new(Check::RateOff, what))
-}
-
-fn uneven(stream: &StreamStatistics) -> Option<Finding> {
-    let interval = &stream.interval;
-    let usual = interval.p50.max(Duration::from_millis(1));
-    let is_numbered = !matches!(stream.kind, DatagramKind::Mxtp(of) if matches!(of.number(), 12 | 13));
-    let limit = usual * 3 + Duration::from_millis(10);
-    let milliseconds = |time: Duration| time.as_secs_f64() * 1000.0;
-    let what = format!(
-        "Of type {}, the usual time between two is {:.1} ms, but 1 in 100 times {:.1} ms and once {:.1} ms.",
-        stream.kind,
-        milliseconds(interval.p50),
-        milliseconds(interval.p99),
-        milliseconds(interval.max)
-    );
-    let is_uneven = interval.p99 > limit || interval.max > usual * 3 + Duration::from_millis(250);
-    (is_numbered && interval.count >= 30 && is_uneven).then(|| Finding::new(Check::UnevenArrival, what))
-}
-
 fn quirks(all: &Statistics) -> Option<Finding> {
     let mut found = BTreeMap::new();
     for (quirk, count) in all.streams().flat_map(|(_, stream)| &stream.counters.quirks) {
@@ -180,6 +130,7 @@ mod tests {
     use crate::histogram::Summary;
     use crate::stats::SubjectStatistics;
     use posewire_mxtp::MessageType;
+    use std::time::Duration;
 
     fn statistics(counters: Counters) -> Statistics {
         let stream = StreamStatistics {
@@ -261,38 +212,5 @@ mod tests {
         assert_eq!(checks, [Check::Duplicates, Check::SenderRestarts, Check::Quirks]);
         assert_eq!(found[1].1, "The numbering began anew 1 time, was wound back 2 times.");
         assert!(found[2].1.contains("item-count, 7 times"), "{}", found[2].1);
-    }
-
-    #[test]
-    fn a_rate_is_held_against_the_streams_own_clock_and_stride() {
-        let all = statistics(Counters {
-            stride: Some(4),
-            ..counters()
-        });
-        let stream = &all.subjects[0].streams[0];
-        assert_eq!(rate_off(&all, stream, Some(960.0)), None);
-        assert_eq!(rate_off(&all, stream, None), None);
-        let mut lossy = stream.clone();
-        (lossy.rate_hz, lossy.counters.missing) = (220.0, 110);
-        assert_eq!(rate_off(&all, &lossy, Some(960.0)), None, "what is missing is a loss");
-        let found = rate_off(&all, stream, Some(240.0)).unwrap();
-        assert!(
-            found.what.contains("240.0 of type 02") && found.what.ends_with("60.0."),
-            "{}",
-            found.what
-        );
-    }
-
-    #[test]
-    fn messages_in_bursts_are_noted() {
-        let mut all = statistics(counters());
-        let milliseconds = Duration::from_millis;
-        all.subjects[0].streams[0].interval = Summary {
-            count: 100,
-            p50: milliseconds(4),
-            p99: milliseconds(40),
-            max: milliseconds(80),
-        };
-        assert_eq!(found(&all)[0].0, Check::UnevenArrival);
     }
 }

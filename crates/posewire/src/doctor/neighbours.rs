@@ -2,7 +2,7 @@
 
 use super::protocol::Guess;
 use super::silence::Elsewhere;
-use crate::endpoint::{Endpoint, Host, TcpMode};
+use crate::endpoint::{Endpoint, Host, TcpAddress, TcpMode, UdpAddress};
 use crate::net;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener, UdpSocket};
 
@@ -24,6 +24,21 @@ impl OtherTransport {
             }
             Endpoint::MxtpTcp(address) if address.mode != Some(TcpMode::Connect) => {
                 Some(Self::Udp(open(own(&address.host, address.port)?)?))
+            }
+            _ => None,
+        }
+    }
+
+    /// The same port of UDP where an endpoint is of TCP, and the other way round.
+    pub(super) fn endpoint(of: &Endpoint) -> Option<Endpoint> {
+        match of {
+            Endpoint::MxtpUdp(address) => {
+                let tcp = TcpAddress::new(address.host.clone(), address.port);
+                Some(Endpoint::MxtpTcp(tcp))
+            }
+            Endpoint::MxtpTcp(address) if address.mode != Some(TcpMode::Connect) => {
+                let udp = UdpAddress::new(address.host.clone(), address.port);
+                Some(Endpoint::MxtpUdp(udp))
             }
             _ => None,
         }
@@ -99,7 +114,6 @@ const USUAL: [u16; 2] = [crate::endpoint::DEFAULT_PORT, 9764];
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::endpoint::{TcpAddress, UdpAddress};
     use std::net::TcpStream;
 
     fn loopback() -> Host {

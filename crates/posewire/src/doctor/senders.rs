@@ -11,7 +11,7 @@ use std::net::SocketAddr;
 
 /// Who sends which character, or frames to a group.
 #[derive(Debug, Default)]
-pub(super) struct Senders {
+pub(crate) struct Senders {
     heard: BTreeMap<Numbering, BTreeMap<SocketAddr, Heard>>,
 }
 
@@ -33,7 +33,7 @@ struct Heard {
 }
 
 impl Senders {
-    pub(super) fn datagram(&mut self, datagram: &Datagram) {
+    pub(crate) fn datagram(&mut self, datagram: &Datagram) {
         let Some(what) = stream_of(datagram) else {
             return;
         };
@@ -54,15 +54,29 @@ impl Senders {
     }
 
     /// One for all that the same senders send.
-    pub(super) fn findings(&self) -> impl Iterator<Item = Finding> {
+    pub(crate) fn findings(&self) -> impl Iterator<Item = Finding> {
         let mut sent: BTreeMap<Vec<SocketAddr>, Vec<Numbering>> = BTreeMap::new();
-        for (what, senders) in &self.heard {
-            let beside = beside_each_other(senders);
-            if beside.len() > 1 {
-                sent.entry(beside).or_default().push(*what);
-            }
+        for (what, senders) in self.mixed() {
+            sent.entry(senders).or_default().push(what);
         }
         sent.into_iter().map(|(senders, sent)| of_senders(&senders, &sent))
+    }
+
+    /// Whether the samples of a subject of this number come from several senders, so that what is counted of them means nothing.
+    pub(super) fn are_mixed(&self, number: u32) -> bool {
+        self.mixed().any(|(what, _)| match what {
+            Numbering::Character(character) => u32::from(character) == number,
+            Numbering::Frames => true,
+        })
+    }
+
+    /// What several send at the same time.
+    fn mixed(&self) -> impl Iterator<Item = (Numbering, Vec<SocketAddr>)> {
+        let beside = self
+            .heard
+            .iter()
+            .map(|(what, senders)| (*what, beside_each_other(senders)));
+        beside.filter(|(_, senders)| senders.len() > 1)
     }
 }
 
@@ -167,6 +181,19 @@ mod tests {
             "{}",
             found[0]
         );
+    }
+
+    #[test]
+    fn what_has_one_sender_is_not_mixed() {
+        let mut senders = Senders::default();
+        for place in 0..8_i64 {
+            let from = ["10.0.0.1:5000", "10.0.0.2:5000"][place as usize % 2];
+            let character = [0, 0, 1, 2][place as usize % 4];
+            let mut datagram = datagram(from, &mxtp(character, 1));
+            datagram.received = Stamp(place);
+            senders.datagram(&datagram);
+        }
+        assert_eq!([0, 1, 2].map(|number| senders.are_mixed(number)), [true, false, false]);
     }
 
     #[test]

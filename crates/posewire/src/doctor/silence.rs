@@ -19,6 +19,8 @@ pub(super) struct Circumstances {
     pub(super) addresses: Vec<IpAddr>,
     /// Who uses the same port by the other transport.
     pub(super) other_transport: Option<SocketAddr>,
+    /// Who else has that port, as `The program mvn (process 4242) listens at tcp 0.0.0.0:9763`.
+    pub(super) other_holder: Option<String>,
     /// What came to other ports that are usual.
     pub(super) elsewhere: Vec<Elsewhere>,
 }
@@ -74,8 +76,9 @@ fn of_other_transport(endpoint: &Endpoint, from: SocketAddr) -> Finding {
 fn of_silence(endpoint: &Endpoint, elapsed: Duration, around: &Circumstances) -> Finding {
     let (host, port) = place_of(endpoint);
     let is_calling = matches!(endpoint, Endpoint::MxtpTcp(address) if address.mode == Some(TcpMode::Connect));
-    let seconds = elapsed.as_secs_f64();
-    let mut what = format!("In {seconds:.0} s nothing came.");
+    // As people say it: 2.5 s and 5 s.
+    let seconds = (elapsed.as_secs_f64() * 10.0).round() / 10.0;
+    let mut what = format!("In {seconds} s nothing came.");
     if !is_calling {
         what += " Excluded: that another program has the port.";
     }
@@ -84,6 +87,9 @@ fn of_silence(endpoint: &Endpoint, elapsed: Duration, around: &Circumstances) ->
         what += " Only this machine itself can send to a loopback address.";
     } else {
         what += &of_traffic(around);
+    }
+    if let Some(holder) = &around.other_holder {
+        _ = write!(what, " {holder}, and has what comes there.");
     }
     Finding::new(Check::NothingArrives, what).with_remedy(remedy(host, port, is_calling, is_local, around))
 }
@@ -187,6 +193,19 @@ mod tests {
             finding.remedy.contains("192.168.1.5 and port 9763"),
             "{}",
             finding.remedy
+        );
+    }
+
+    #[test]
+    fn who_has_the_port_of_the_other_transport_is_named() {
+        let around = Circumstances {
+            other_holder: Some("The program mvn (process 7) listens at tcp 0.0.0.0:9763".to_owned()),
+            ..Circumstances::default()
+        };
+        let what = found("mxtp://127.0.0.1", &around).what;
+        assert!(
+            what.ends_with(" The program mvn (process 7) listens at tcp 0.0.0.0:9763, and has what comes there."),
+            "{what}"
         );
     }
 

@@ -109,7 +109,9 @@ impl NatNetAddress {
         }
         Ok(Self {
             mode,
-            version: url.parsed("version", "a number from 1.4 to 4.5", |version| is_known(*version))?,
+            version: url.parsed("version", "a number from 1.4 to 4.5", |version: &Version| {
+                version.is_known()
+            })?,
             data_port: data_port.unwrap_or(Self::DATA_PORT),
             group: group.unwrap_or(Self::GROUP),
             interface: parse_interface(&url)?,
@@ -166,12 +168,6 @@ fn choice<T: Copy>(url: &Url<'_>, key: &'static str, expected: &'static str, wor
 fn word<T: PartialEq>(value: &T, words: &[(&'static str, T)]) -> &'static str {
     let found = words.iter().find(|(_, known)| known == value);
     found.map_or("", |(word, _)| word)
-}
-
-fn is_known(version: Version) -> bool {
-    let plain = Version::new(version.major, version.minor) == version;
-    let [oldest, ..] = Version::LAYOUTS;
-    plain && (oldest..=Version::LATEST).contains(&version)
 }
 
 fn is_group(address: Ipv4Addr) -> bool {

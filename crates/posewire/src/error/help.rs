@@ -54,11 +54,17 @@ impl Error {
             Self::NoSamples { .. } => Some("posewire inspect says which samples a take has".into()),
             Self::NewRate { .. } => Some("leave the rate out to keep every sample".into()),
             Self::Exists { .. } => Some("choose another name, or replace it with --overwrite".into()),
+            Self::OntoItself { .. } => Some("write to another file: this one is read, and would be lost".into()),
+            Self::BeingRecorded { .. } => Some("end that recording first, or choose another name".into()),
+            Self::Removed { .. } => {
+                Some("what was in it is lost: record anew, and leave the file alone meanwhile".into())
+            }
             Self::TakeRuns { .. } => Some("end it first".into()),
             Self::TooManyTargets { .. } => Some("start the stream anew, or send to a multicast group".into()),
             Self::Stopped { .. } => Some("nothing was left half written; start again when you like".into()),
             Self::Feature { feature, .. } => Some(format!("cargo install --path crates/cli --features {feature}")),
             Self::NotMcap { .. } => Some("give a file that posewire record has written".into()),
+            Self::DamagedWithin { .. } => Some("-o FILE writes what comes before the damage to another file".into()),
             Self::Compressed { .. } => {
                 Some("mcap compress --compression none, a tool of mcap.dev, writes it anew".into())
             }

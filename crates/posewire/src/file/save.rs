@@ -2,11 +2,12 @@
 
 use super::problem::Problem;
 use super::{LeftOut, Progress, Recording, WriteOptions, WriteSeek, write_to};
+use crate::beside::{beside, folder_of, give_name};
 use crate::endpoint::FileFormat;
 use crate::{Error, Result};
 use posewire_motion::Section;
 use std::ffi::OsString;
-use std::fs::{self, File, Metadata};
+use std::fs::{self, Metadata};
 use std::io;
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
@@ -184,59 +185,15 @@ fn is_read_only(file: &Metadata) -> bool {
     file.permissions().readonly()
 }
 
-/// Writes a file that has no name of its own yet, to the disk.
+/// Writes a file that has no name of its own yet.
 fn write_beside(
     path: &Path,
     fill: impl FnOnce(&mut dyn WriteSeek) -> Result<(), Problem>,
 ) -> Result<NamedTempFile, Problem> {
-    // Where a link leads to another disk, a file beside the link could not be renamed to what it leads to.
-    let whole = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    let name = whole.file_name().unwrap_or_default().to_string_lossy();
-    // As long as names may be, so that there is room for more.
-    let name: String = name.chars().take(LONGEST_PREFIX).collect();
-    let prefix = format!(".{name}.");
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(&prefix).suffix(".part");
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(ALL_BUT_MASKED));
-    let mut file = builder.tempfile_in(folder_of(&whole))?;
+    let mut file = beside(path)?;
     fill(file.as_file_mut())?;
-    file.as_file().sync_all()?;
     Ok(file)
 }
-
-/// Gives a file its name, and its length.
-fn give_name(file: NamedTempFile, path: &Path, overwrite: bool) -> Result<u64> {
-    let failed = |error: &io::Error| match error.kind() {
-        io::ErrorKind::AlreadyExists => Error::Exists { path: path.to_owned() },
-        _ => Error::write(path.display().to_string(), error),
-    };
-    let bytes = file.as_file().metadata().map_err(|error| failed(&error))?.len();
-    if overwrite {
-        // What a link points to is replaced, not the link.
-        let whole = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-        file.persist(whole).map_err(|error| failed(&error.error))?;
-    } else {
-        file.persist_noclobber(path).map_err(|error| failed(&error.error))?;
-    }
-    // The name is on the disk when its folder is. Where folders cannot be opened the system sees to it.
-    if let Ok(folder) = File::open(folder_of(path)) {
-        let _ = folder.sync_all();
-    }
-    Ok(bytes)
-}
-
-fn folder_of(path: &Path) -> &Path {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    folder.unwrap_or(Path::new("."))
-}
-
-/// Characters, of which each has four bytes at most, of the 255 bytes that a name may have.
-const LONGEST_PREFIX: usize = 60;
-
-/// As any new file: the system takes away what its mask says.
-#[cfg(unix)]
-const ALL_BUT_MASKED: u32 = 0o666;
 
 #[cfg(test)]
 mod tests {

@@ -34,6 +34,13 @@ pub const SOURCE_RECORD: &str = "posewire.source";
 pub const SUBJECT_RECORD: &str = "posewire.subject";
 /// The metadata record that a finished file ends with.
 pub const END: &str = "posewire.end";
+/// Its key that says whether the recording goes on in another file: `true` or `false`.
+pub const CONTINUED: &str = "continued";
+
+/// Whether a record [`END`] says that the recording goes on in another file.
+pub(crate) fn is_continued(end: &BTreeMap<String, String>) -> bool {
+    end.get(CONTINUED).is_some_and(|value| value == "true")
+}
 
 /// Text by key, as channels and metadata records have it.
 pub(super) type Keys = BTreeMap<String, String>;

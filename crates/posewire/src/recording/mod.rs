@@ -6,20 +6,27 @@
 mod briefing;
 mod description;
 mod format;
+mod lock;
 mod names;
 mod part;
 mod poses;
 mod records;
 mod recover;
 mod reminder;
+mod senders;
+mod subjects;
 mod survey;
 mod take_name;
 mod writer;
 
 pub(crate) use briefing::Briefing;
+pub(crate) use format::is_continued;
 pub use format::{
-    END, FROM, KIND, NAME, POSES, RAW, RECORDING, REPEATED, SOURCE, SOURCE_RECORD, SUBJECT, SUBJECT_RECORD, TO, WIRE,
+    CONTINUED, END, FROM, KIND, NAME, POSES, RAW, RECORDING, REPEATED, SOURCE, SOURCE_RECORD, SUBJECT, SUBJECT_RECORD,
+    TO, WIRE,
 };
+pub(crate) use lock::Whereabouts;
+pub use lock::is_being_recorded;
 pub use recover::{Recovered, recover};
 pub use survey::{SenderSurvey, SourceSurvey, SubjectSurvey, Survey};
 pub use take_name::{NameError, TakeName};

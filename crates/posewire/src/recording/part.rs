@@ -1,13 +1,14 @@
 //! One MCAP file, being written.
 
 use super::format::{Keys, protocol};
+use super::lock::{self, Whereabouts};
 use super::poses;
 use crate::{Error, Result};
 use mcap::records::{MessageHeader, Metadata};
 use mcap::write::NoSeek;
 use mcap::{McapError, WriteOptions};
 use posewire_motion::Stamp;
-use std::fs::{File, OpenOptions};
+use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -22,8 +23,12 @@ pub(super) struct Part {
     written: Arc<AtomicU64>,
     /// How long the file was when it last ended with a whole chunk.
     whole: u64,
-    /// Bytes of messages that are not in the file yet.
+    /// Bytes of messages that are not in the file yet, with what stands around them.
     pending: u64,
+    channels: u64,
+    /// Bytes of what the end repeats of channels and metadata.
+    repeated: u64,
+    chunks: u64,
 }
 
 /// A message to be written.
@@ -36,15 +41,12 @@ pub(super) struct Message<'a> {
 }
 
 impl Part {
-    /// Creates the file. One that is there is replaced only with `overwrite`.
+    /// Creates the file, which nobody else records into until this is closed. One that is there is replaced only with `overwrite`.
     pub(super) fn create(path: &Path, overwrite: bool) -> Result<Self> {
-        let mut options = OpenOptions::new();
-        options.write(true).create(true).truncate(true);
-        if !overwrite {
-            options.create_new(true);
-        }
-        let file = options.open(path).map_err(|error| cannot_create(path, &error))?;
-        let same = file.try_clone().map_err(|error| cannot_create(path, &error))?;
+        let file = lock::create(path, overwrite)?;
+        let same = file
+            .try_clone()
+            .map_err(|error| Error::write(path.display().to_string(), &error))?;
         let written = Arc::new(AtomicU64::new(0));
         let counted = Counted {
             file: same,
@@ -65,6 +67,9 @@ impl Part {
             written,
             whole: 0,
             pending: 0,
+            channels: 0,
+            repeated: FOOTER,
+            chunks: 0,
         })
     }
 
@@ -77,13 +82,25 @@ impl Part {
         self.file.try_clone().ok()
     }
 
+    /// Whether the file still has its name.
+    pub(super) fn whereabouts(&self) -> Whereabouts {
+        lock::whereabouts(&self.file, &self.path)
+    }
+
     /// How long the file is, and will be with what is not in it yet.
     pub(super) fn length(&self) -> u64 {
         self.written.load(Ordering::Relaxed).max(self.whole) + self.pending
     }
 
+    /// How long the file will be with its end.
+    pub(super) fn whole_length(&self) -> u64 {
+        let chunks = self.chunks + self.pending.div_ceil(CHUNK);
+        self.length() + self.repeated + chunks * (CHUNK_INDEXED + self.channels * CHANNEL_INDEXED)
+    }
+
     /// Adds a channel for datagrams.
     pub(super) fn raw_channel(&mut self, topic: &str, wire: crate::Wire, keys: &Keys) -> Result<u16> {
+        self.note_channel(topic, keys, 0);
         let added = self.writer.add_channel(0, topic, protocol(wire), keys);
         added.map_err(|error| cannot_write(&self.path, error))
     }
@@ -91,6 +108,7 @@ impl Part {
     /// Adds a channel for poses.
     pub(super) fn pose_channel(&mut self, topic: &str, keys: &Keys) -> Result<u16> {
         let schema = poses::SCHEMA.as_bytes();
+        self.note_channel(topic, keys, schema.len() as u64);
         let schema = self
             .writer
             .add_schema(poses::SCHEMA_NAME, poses::SCHEMA_ENCODING, schema);
@@ -106,12 +124,22 @@ impl Part {
             log_time: at,
             publish_time: at,
         };
-        self.pending += message.data.len() as u64;
+        self.pending += MESSAGE + message.data.len() as u64;
         let written = self.writer.write_to_known_channel(&header, message.data);
         written.map_err(|error| cannot_write(&self.path, error))
     }
 
+    fn note_channel(&mut self, topic: &str, keys: &Keys, schema: u64) {
+        let length = CHANNEL + topic.len() as u64 + length_of(keys) + schema;
+        self.channels += 1;
+        // It stands in the data as well.
+        self.repeated += length;
+        self.pending += length;
+    }
+
     pub(super) fn metadata(&mut self, name: &str, metadata: Keys) -> Result<()> {
+        self.repeated += METADATA_INDEXED + name.len() as u64;
+        self.pending += METADATA_INDEXED + length_of(&metadata);
         let record = Metadata {
             name: name.to_owned(),
             metadata,
@@ -125,6 +153,7 @@ impl Part {
         let flushed = self.writer.flush();
         flushed.map_err(|error| cannot_write(&self.path, error))?;
         self.whole = self.written.load(Ordering::Relaxed);
+        self.chunks += self.pending.div_ceil(CHUNK);
         self.pending = 0;
         Ok(())
     }
@@ -140,11 +169,13 @@ impl Part {
             synced => synced,
         });
         synced.map_err(|error| Error::write(self.path.display().to_string(), &error))?;
+        // Whoever sees it onto the disk may have it open for longer.
+        let _ = self.file.unlock();
         Ok(self.written.load(Ordering::Relaxed))
     }
 
-    /// Gives the file up after a failure, without the chunk that is torn.
-    pub(super) fn abandon(self) {
+    /// Gives the file up after a failure, without the chunk that is torn. Gives how long it is.
+    pub(super) fn abandon(self) -> u64 {
         let Self {
             writer, file, whole, ..
         } = self;
@@ -152,6 +183,8 @@ impl Part {
         drop(buffered);
         // When this fails too, what comes before the torn chunk can be read all the same.
         let _ = file.set_len(whole);
+        let _ = file.unlock();
+        whole
     }
 }
 
@@ -173,11 +206,9 @@ impl Write for Counted {
     }
 }
 
-fn cannot_create(path: &Path, error: &io::Error) -> Error {
-    if error.kind() == io::ErrorKind::AlreadyExists {
-        return Error::Exists { path: path.to_owned() };
-    }
-    Error::write(path.display().to_string(), error)
+fn length_of(keys: &Keys) -> u64 {
+    let lengths = keys.iter().map(|(key, value)| key.len() + value.len() + 8);
+    lengths.sum::<usize>() as u64
 }
 
 pub(super) fn cannot_write(path: &Path, error: McapError) -> Error {
@@ -191,3 +222,11 @@ pub(super) fn cannot_write(path: &Path, error: McapError) -> Error {
 /// A chunk is written when it has so many bytes, or when it has waited long enough.
 const CHUNK: u64 = 1 << 20;
 const BUFFER: usize = 64 << 10;
+/// What a message has around it and in the index, in bytes; so the others.
+const MESSAGE: u64 = 31 + 16;
+const CHANNEL: u64 = 64;
+const CHANNEL_INDEXED: u64 = 10 + 15;
+const CHUNK_INDEXED: u64 = 73 + 57;
+const METADATA_INDEXED: u64 = 64;
+/// The records with which every file ends.
+const FOOTER: u64 = 2048;

@@ -15,6 +15,8 @@ pub(super) struct Records {
     reader: LinearReader,
     /// What ended the records before their end.
     damage: Option<String>,
+    /// Whether that is nothing but the end of the file.
+    cut_off: bool,
     /// Whether the data's end was seen, behind which come the index and the footer.
     data_ended: bool,
     complete: bool,
@@ -35,6 +37,7 @@ impl Records {
             file: BufReader::with_capacity(BUFFER, file),
             reader: LinearReader::new_with_options(options),
             damage: None,
+            cut_off: false,
             data_ended: false,
             complete: false,
         })
@@ -79,6 +82,11 @@ impl Records {
         self.damage.as_deref()
     }
 
+    /// Whether the records ended where the file does, so that nothing follows them.
+    pub(super) fn is_cut_off(&self) -> bool {
+        self.cut_off
+    }
+
     fn end(&mut self, error: &McapError) -> Result<bool> {
         if matches!(error, McapError::BadMagic) && !self.data_ended {
             return Err(Error::NotMcap {
@@ -91,6 +99,7 @@ impl Records {
             });
         }
         self.damage = Some(error.to_string());
+        self.cut_off = matches!(error, McapError::UnexpectedEof);
         Ok(false)
     }
 }

@@ -1,12 +1,14 @@
 //! Making a recording whole again that was cut off.
 
+use super::lock;
 use super::part::cannot_write;
 use super::records::{Records, is_index};
+use crate::beside::{beside, give_name};
 use crate::{Error, Result};
 use mcap::records::Record;
 use mcap::{McapError, WriteOptions};
 use std::collections::BTreeMap;
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
@@ -22,25 +24,39 @@ pub struct Recovered {
 }
 
 /// Writes what can be read of `from` into `to`, with an index. `from` and `to` may be the same file. The new file stands at its
-/// place only once it is whole and on the disk.
+/// place only once it is whole and on the disk. Of a file that is being recorded, `to` gets what is in it so far.
 ///
 /// # Errors
 /// [`Error::Read`], [`Error::NotMcap`] and [`Error::Compressed`] of the old file; [`Error::Exists`] when `to` is there and is
-/// another file than `from`, and [`Error::Write`].
+/// another file than `from`, [`Error::BeingRecorded`] and [`Error::DamagedWithin`] when `to` would replace what is still written or
+/// can be read only in part, and [`Error::Write`].
 pub fn recover(from: &Path, to: &Path) -> Result<Recovered> {
+    let in_place = is_same(from, to);
+    let old = File::open(from).map_err(|error| Error::read(from, &error))?;
+    if in_place {
+        // What a recorder has still to write would go into the old file, which nobody finds any more.
+        lock::own(&old, from)?;
+    }
     let mut records = Records::open(from)?;
-    if to.exists() && !is_same(from, to) {
+    if to.exists() && !in_place {
         return Err(Error::Exists { path: to.to_owned() });
     }
-    let draft = Draft::beside(to);
-    let mut copy = Copy::into(&draft)?;
+    let draft = beside(to).map_err(|error| Error::write(to.display().to_string(), &error))?;
+    let mut copy = Copy::into(draft.path())?;
     copy_all(&mut records, &mut copy)?;
     let messages = copy.finish()?;
-    draft.rename(to)?;
+    let damage = records.damage().map(str::to_owned);
+    // What follows the damage is in the old file alone.
+    if let Some(problem) = damage.clone().filter(|_| in_place && !records.is_cut_off()) {
+        let path = from.to_owned();
+        return Err(Error::DamagedWithin { path, problem });
+    }
+    drop(old);
+    give_name(draft, to, in_place)?;
     Ok(Recovered {
         messages,
         was_complete: records.is_complete(),
-        damage: records.damage().map(str::to_owned),
+        damage,
     })
 }
 
@@ -56,32 +72,6 @@ fn is_same(from: &Path, to: &Path) -> bool {
     }
 }
 
-/// The new file before it has its name; it goes with its owner unless it was renamed.
-struct Draft {
-    path: PathBuf,
-}
-
-impl Draft {
-    fn beside(to: &Path) -> Self {
-        let mut name = to.file_name().unwrap_or_default().to_owned();
-        name.push(".recovering");
-        let path = to.with_file_name(name);
-        Self { path }
-    }
-
-    fn rename(self, to: &Path) -> Result<()> {
-        let renamed = fs::rename(&self.path, to);
-        renamed.map_err(|error| Error::write(to.display().to_string(), &error))
-    }
-}
-
-impl Drop for Draft {
-    fn drop(&mut self) {
-        // After the renaming it is not there.
-        let _ = fs::remove_file(&self.path);
-    }
-}
-
 /// The new file's writer.
 struct Copy {
     path: PathBuf,
@@ -92,15 +82,15 @@ struct Copy {
 }
 
 impl Copy {
-    fn into(draft: &Draft) -> Result<Self> {
-        let file = File::create(&draft.path).map_err(|error| cannot_write(&draft.path, error.into()))?;
+    fn into(path: &Path) -> Result<Self> {
+        let file = File::create(path).map_err(|error| cannot_write(path, error.into()))?;
         let options = WriteOptions::new()
             .library(concat!("posewire ", env!("CARGO_PKG_VERSION")))
             .compression(None);
         let writer = options.create(BufWriter::with_capacity(BUFFER, file));
         Ok(Self {
-            path: draft.path.clone(),
-            writer: writer.map_err(|error| cannot_write(&draft.path, error))?,
+            path: path.to_owned(),
+            writer: writer.map_err(|error| cannot_write(path, error))?,
             messages: 0,
             schemas: BTreeMap::new(),
             channels: BTreeMap::new(),
@@ -147,8 +137,7 @@ impl Copy {
         let Self {
             path, writer, messages, ..
         } = self;
-        let mut file = writer.into_inner();
-        let flushed = file.flush().and_then(|()| file.get_ref().sync_all());
+        let flushed = writer.into_inner().flush();
         flushed.map_err(|error| cannot_write(&path, error.into()))?;
         Ok(messages)
     }

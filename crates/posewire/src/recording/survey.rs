@@ -29,6 +29,8 @@ pub struct Survey {
     pub span: Option<(Stamp, Stamp)>,
     /// Items that were lost while this and the files before it were recorded, where the file says so.
     pub lost: Option<u64>,
+    /// Whether the recording goes on in another file.
+    pub continued: bool,
 }
 
 /// A source of a recording.
@@ -139,7 +141,10 @@ impl Surveying {
                     self.source(source).endpoint.clone_from(endpoint);
                 }
             }
-            format::END => self.survey.lost = keys.get("lost").and_then(|lost| lost.parse().ok()),
+            format::END => {
+                self.survey.lost = keys.get("lost").and_then(|lost| lost.parse().ok());
+                self.survey.continued = format::is_continued(keys);
+            }
             _ => {}
         }
     }

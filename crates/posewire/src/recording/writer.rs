@@ -1,23 +1,23 @@
 //! A recording, being written: one file, or several that follow each other.
 
 use super::briefing::Briefing;
-use super::description::describe;
 use super::format::{self, keys};
-use super::names::{Names, SubjectId};
+use super::lock::Whereabouts;
 use super::part::{Message, Part};
-use super::poses;
 use super::reminder::Reminder;
-use crate::{Datagram, Error, Result, SourceId, Wire, clock};
+use super::senders::Senders;
+use super::subjects::Subjects;
+use crate::{Datagram, Error, Result, SourceId, clock};
 use posewire_motion::{Frame, Stamp, Subject};
-use std::collections::{BTreeMap, HashMap};
-use std::net::{Ipv4Addr, SocketAddr};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// How a recording is written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct WriterOptions {
-    /// Begins a new file, `take-002.mcap` after `take.mcap`, as soon as one has about so many bytes.
+    /// Begins a new file, `take-002.mcap` after `take.mcap`, before one has more bytes than these. A [`Writer`] looks whenever it is
+    /// flushed, a [`RecordSink`](crate::sink::RecordSink) before each item.
     pub split: Option<u64>,
     /// Replaces a file that is there. Otherwise that is an error for the first file, and further ones skip its number.
     pub overwrite: bool,
@@ -57,33 +57,14 @@ pub struct Writer {
     number: u32,
     /// The file numbers tried, which go on over those that are taken.
     suffix: u32,
-    names: Names,
     reminder: Reminder,
-    senders: HashMap<Sender, u16>,
-    sender_counts: BTreeMap<SourceId, usize>,
+    senders: Senders,
     sequences: BTreeMap<SourceId, u32>,
-    subjects: BTreeMap<SubjectId, Known>,
-    message: Vec<u8>,
+    subjects: Subjects,
     counts: PartCounts,
     finished_bytes: u64,
-    descriptions_left_out: u64,
-}
-
-type Sender = (SourceId, Wire, SocketAddr, SocketAddr);
-
-/// A subject that was heard of.
-struct Known {
-    subject: Arc<Subject>,
-    /// What it is called, and its segments' frame ids; absent when there are too many names.
-    named: Option<Named>,
-    /// How often it was described in the present file.
-    told: u32,
-}
-
-struct Named {
-    name: String,
-    frames: Vec<String>,
-    channel: Option<u16>,
+    /// How much of the present file repeats earlier ones.
+    beginning: u64,
 }
 
 /// What is in the present file.
@@ -92,13 +73,11 @@ struct PartCounts {
     datagrams: u64,
     frames: u64,
     bytes: u64,
-    /// Bytes of subjects' descriptions.
-    descriptions: usize,
 }
 
 impl Writer {
     /// Subjects that are known; more, as only a broken sender has, are counted and have no poses in the file.
-    pub const MOST_SUBJECTS: usize = 16_384;
+    pub const MOST_SUBJECTS: usize = Subjects::MOST;
 
     /// Creates the first file. `endpoints` are those of the sources, in the order of their [`SourceId`]s.
     ///
@@ -113,16 +92,13 @@ impl Writer {
             started: clock::now(),
             number: 1,
             suffix: 1,
-            names: Names::default(),
             reminder: Reminder::default(),
-            senders: HashMap::new(),
-            sender_counts: BTreeMap::new(),
+            senders: Senders::default(),
             sequences: BTreeMap::new(),
-            subjects: BTreeMap::new(),
-            message: Vec::new(),
+            subjects: Subjects::default(),
             counts: PartCounts::default(),
             finished_bytes: 0,
-            descriptions_left_out: 0,
+            beginning: 0,
         };
         writer.introduce()?;
         Ok(writer)
@@ -146,7 +122,7 @@ impl Writer {
     /// Descriptions of subjects that were not written, because there were more than any that is not broken sends. The datagrams
     /// that they were read from are in the file all the same.
     pub fn descriptions_left_out(&self) -> u64 {
-        self.descriptions_left_out
+        self.subjects.left_out()
     }
 
     /// Writes who is there already, at the beginning of a recording.
@@ -178,14 +154,13 @@ impl Writer {
         self.reminder.note(source, number, datagram);
         self.counts.datagrams += 1;
         self.counts.bytes += datagram.bytes.len() as u64;
-        let channel = self.sender(source, datagram)?;
-        self.write(|part| {
-            part.message(Message {
-                channel,
-                sequence: number,
-                at: datagram.received,
-                data: &datagram.bytes,
-            })
+        let (senders, part) = (&mut self.senders, open(&mut self.part, &self.first)?);
+        let channel = senders.channel(part, source, datagram)?;
+        part.message(Message {
+            channel,
+            sequence: number,
+            at: datagram.received,
+            data: &datagram.bytes,
         })
     }
 
@@ -195,53 +170,20 @@ impl Writer {
     /// # Errors
     /// As for [`datagram`](Self::datagram).
     pub fn subject(&mut self, source: SourceId, subject: &Arc<Subject>) -> Result<()> {
-        let id = (source, subject.id);
-        let known = self.subjects.get(&id).map(|known| &known.subject);
-        if known.is_some_and(|known| Arc::ptr_eq(known, subject) || known == subject) {
-            return Ok(());
-        }
-        if self.subjects.len() >= Self::MOST_SUBJECTS && !self.subjects.contains_key(&id) {
-            self.descriptions_left_out += 1;
-            return Ok(());
-        }
-        let name = self.names.name(id, subject);
-        let named = name.map(|name| Named::new(name, subject));
-        let told = self.subjects.get(&id).map_or(0, |known| known.told);
-        let subject = Arc::clone(subject);
-        self.subjects.insert(id, Known { subject, named, told });
-        self.tell(id)
+        let part = open(&mut self.part, &self.first)?;
+        self.counts.frames += self.subjects.note(part, source, subject)?;
+        Ok(())
     }
 
-    /// Writes a sample's poses. One that does not say when it was received is given the present time.
+    /// Writes a sample's poses. One that does not say when it was received is given the present time. Those of a subject that has
+    /// no name yet wait for it, but not for longer than 1.5 s of the stream, so that they are on one channel with the rest.
     ///
     /// # Errors
     /// As for [`datagram`](Self::datagram).
     pub fn frame(&mut self, source: SourceId, frame: &Frame) -> Result<()> {
-        self.subject(source, &frame.subject)?;
-        let Self {
-            subjects,
-            part: Some(part),
-            message,
-            ..
-        } = self
-        else {
-            return Err(self.is_over());
-        };
-        let id = (source, frame.subject.id);
-        let Some(known) = subjects.get_mut(&id) else {
-            return Ok(());
-        };
-        let Some(named) = &mut known.named else { return Ok(()) };
-        let at = frame.received.unwrap_or_else(clock::now);
-        poses::encode(frame, &named.frames, at, message);
-        let channel = named.channel(part, id, &known.subject)?;
-        part.message(Message {
-            channel,
-            sequence: frame.sample,
-            at,
-            data: message,
-        })?;
-        self.counts.frames += 1;
+        let (subjects, part) = (&mut self.subjects, open(&mut self.part, &self.first)?);
+        self.counts.frames += subjects.note(part, source, &frame.subject)?;
+        self.counts.frames += subjects.poses(part, source, frame)?;
         Ok(())
     }
 
@@ -250,13 +192,51 @@ impl Writer {
     /// # Errors
     /// As for [`datagram`](Self::datagram), and those of creating a file.
     pub fn flush(&mut self) -> Result<()> {
-        self.write(Part::flush)?;
+        self.hand_over()?;
+        self.split(0).map(drop)
+    }
+
+    /// Whether the file stays within its limit with so many more bytes. Where those that it must begin with leave hardly any room
+    /// it has some nevertheless.
+    pub(crate) fn has_room_for(&self, bytes: u64) -> bool {
+        let (Some(limit), Some(part)) = (self.options.split, &self.part) else {
+            return true;
+        };
+        let is_little = part.length().saturating_sub(self.beginning) < limit / 4;
+        is_little || part.whole_length() + bytes <= limit
+    }
+
+    /// Whether the present file still has its name; `None` after its end.
+    pub(crate) fn whereabouts(&self) -> Option<Whereabouts> {
+        self.part.as_ref().map(Part::whereabouts)
+    }
+
+    /// Samples of a subject whose poses wait for its name.
+    pub(crate) fn held(&self, source: SourceId, subject: u32) -> u64 {
+        self.subjects.held((source, subject))
+    }
+
+    /// Hands everything to the system.
+    pub(crate) fn hand_over(&mut self) -> Result<()> {
+        self.write(Part::flush)
+    }
+
+    /// Begins a new file if this one is long enough, and says whether it was. `lost` is for the end of this one, as in
+    /// [`close`](Self::close).
+    pub(crate) fn split(&mut self, lost: u64) -> Result<bool> {
         let limit = self.options.split.unwrap_or(u64::MAX);
-        if self.part.as_ref().is_some_and(|part| part.length() >= limit) {
-            self.close(0)?;
-            self.begin()?;
+        if self.part.as_ref().is_none_or(|part| part.whole_length() < limit) {
+            return Ok(false);
         }
-        Ok(())
+        self.go_on(lost).map(|()| true)
+    }
+
+    /// Begins a new file.
+    pub(crate) fn go_on(&mut self, lost: u64) -> Result<()> {
+        // A file says that it goes on in another only when there is one.
+        let next = self.next_part();
+        self.end(lost, next.is_ok())?;
+        self.begin(next?)
     }
 
     /// Completes the file with its index and sees it onto the disk.
@@ -269,7 +249,20 @@ impl Writer {
 
     /// As [`finish`](Self::finish), and notes how many items were `lost` before they came here.
     pub(crate) fn close(&mut self, lost: u64) -> Result<()> {
-        let (counts, left_out) = (self.counts, self.descriptions_left_out);
+        self.release()?;
+        self.end(lost, false)
+    }
+
+    /// Writes the poses that wait for the names of their subjects.
+    pub(crate) fn release(&mut self) -> Result<()> {
+        let part = open(&mut self.part, &self.first)?;
+        self.counts.frames += self.subjects.release(part)?;
+        Ok(())
+    }
+
+    /// Completes the file, which may be `continued` in another.
+    fn end(&mut self, lost: u64, continued: bool) -> Result<()> {
+        let (counts, left_out) = (self.counts, self.subjects.left_out());
         self.write(|part| {
             let end = [
                 ("datagrams", counts.datagrams.to_string()),
@@ -277,6 +270,7 @@ impl Writer {
                 ("bytes", counts.bytes.to_string()),
                 ("lost", lost.to_string()),
                 ("descriptions_left_out", left_out.to_string()),
+                (format::CONTINUED, continued.to_string()),
             ];
             part.metadata(format::END, keys(end))
         })?;
@@ -286,32 +280,25 @@ impl Writer {
         Ok(())
     }
 
-    /// Gives up after a failure: what was flushed stays, and can be read.
-    pub(crate) fn abandon(&mut self) {
+    /// Gives up after a failure: what was flushed stays, and can be read. Unless the file `is_gone`, in which it is.
+    pub(crate) fn abandon(&mut self, is_gone: bool) {
         if let Some(part) = self.part.take() {
-            part.abandon();
+            let length = part.abandon();
+            self.finished_bytes += if is_gone { 0 } else { length };
         }
     }
 
     /// Begins the next file.
-    fn begin(&mut self) -> Result<()> {
-        self.part = Some(self.next_part()?);
+    fn begin(&mut self, part: Part) -> Result<()> {
+        self.part = Some(part);
         self.number += 1;
         self.counts = PartCounts::default();
-        self.senders.clear();
-        self.sender_counts.clear();
-        for known in self.subjects.values_mut() {
-            known.told = 0;
-            if let Some(named) = &mut known.named {
-                named.channel = None;
-            }
-        }
+        self.senders = Senders::default();
         self.introduce()?;
-        let ids: Vec<_> = self.subjects.keys().copied().collect();
-        for id in ids {
-            self.tell(id)?;
-        }
-        self.repeat()
+        self.subjects.tell_all(open(&mut self.part, &self.first)?)?;
+        self.repeat()?;
+        self.beginning = self.part.as_ref().map_or(0, Part::length);
+        Ok(())
     }
 
     fn next_part(&mut self) -> Result<Part> {
@@ -319,7 +306,7 @@ impl Writer {
             self.suffix += 1;
             let path = numbered(&self.first, self.suffix);
             match Part::create(&path, self.options.overwrite) {
-                Err(Error::Exists { .. }) => {}
+                Err(Error::Exists { .. } | Error::BeingRecorded { .. }) => {}
                 created => return created,
             }
         }
@@ -351,31 +338,6 @@ impl Writer {
         })
     }
 
-    /// Writes the description of a subject.
-    fn tell(&mut self, id: SubjectId) -> Result<()> {
-        let Some(Known { subject, named, told }) = self.subjects.get_mut(&id) else {
-            return Ok(());
-        };
-        if *told >= MOST_TOLD || self.counts.descriptions >= MOST_DESCRIBED {
-            self.descriptions_left_out += 1;
-            return Ok(());
-        }
-        *told += 1;
-        let description = describe(subject);
-        self.counts.descriptions += description.len();
-        let record = [
-            (format::SOURCE, id.0.0.to_string()),
-            (format::SUBJECT, id.1.to_string()),
-            (format::NAME, subject.name.clone()),
-            (
-                "frame",
-                named.as_ref().map_or_else(String::new, |named| named.name.clone()),
-            ),
-            ("description", description),
-        ];
-        self.write(|part| part.metadata(format::SUBJECT_RECORD, keys(record)))
-    }
-
     /// Repeats what earlier files say of those who are in this one.
     fn repeat(&mut self) -> Result<()> {
         let all = self.reminder.all();
@@ -396,36 +358,8 @@ impl Writer {
         })
     }
 
-    /// The channel of a datagram's sender.
-    fn sender(&mut self, source: SourceId, datagram: &Datagram) -> Result<u16> {
-        let known = (source, datagram.wire, datagram.from, datagram.to);
-        if let Some(channel) = self.senders.get(&known) {
-            return Ok(*channel);
-        }
-        let count = self.sender_counts.entry(source).or_default();
-        let is_crowded = *count >= MOST_SENDERS;
-        *count += usize::from(!is_crowded);
-        let from = if is_crowded { ANYBODY } else { datagram.from };
-        let kind = format::RAW;
-        let keys = format::raw_keys(kind, source, datagram.wire, from, datagram.to);
-        let channel = self.write(|part| part.raw_channel(&format::raw_topic(source, kind), datagram.wire, &keys))?;
-        if !is_crowded {
-            self.senders.insert(known, channel);
-        }
-        Ok(channel)
-    }
-
     fn write<T>(&mut self, write: impl FnOnce(&mut Part) -> Result<T>) -> Result<T> {
-        match &mut self.part {
-            Some(part) => write(part),
-            None => Err(self.is_over()),
-        }
-    }
-
-    /// Only a caller who goes on after an error sees this.
-    fn is_over(&self) -> Error {
-        let error = std::io::Error::other("the recording has ended");
-        Error::write(self.first.display().to_string(), &error)
+        open(&mut self.part, &self.first).and_then(write)
     }
 }
 
@@ -437,30 +371,12 @@ impl std::fmt::Debug for Writer {
     }
 }
 
-impl Named {
-    fn new(name: String, subject: &Subject) -> Self {
-        let segments = subject.skeleton.segments.iter();
-        Self {
-            frames: segments.map(|segment| format!("{name}/{}", segment.name)).collect(),
-            name,
-            channel: None,
-        }
-    }
-
-    fn channel(&mut self, part: &mut Part, id: SubjectId, subject: &Subject) -> Result<u16> {
-        if let Some(channel) = self.channel {
-            return Ok(channel);
-        }
-        let keys = keys([
-            (format::KIND, format::POSES.to_owned()),
-            (format::SOURCE, id.0.0.to_string()),
-            (format::SUBJECT, id.1.to_string()),
-            (format::NAME, subject.name.clone()),
-        ]);
-        let channel = part.pose_channel(&format!("/{}/{}/tf", id.0.0, self.name), &keys)?;
-        self.channel = Some(channel);
-        Ok(channel)
-    }
+/// The present file; only a caller who goes on after an error finds that there is none.
+fn open<'a>(part: &'a mut Option<Part>, first: &Path) -> Result<&'a mut Part> {
+    part.as_mut().ok_or_else(|| {
+        let error = std::io::Error::other("the recording has ended");
+        Error::write(first.display().to_string(), &error)
+    })
 }
 
 /// `take-002.mcap` for the second file of `take.mcap`.
@@ -484,12 +400,3 @@ fn host() -> String {
 fn host() -> String {
     std::env::var("COMPUTERNAME").unwrap_or_default()
 }
-
-/// Descriptions of one subject in one file: a performer is measured anew a few times a day.
-const MOST_TOLD: u32 = 256;
-/// Bytes of all descriptions in one file, beyond which there are no more.
-const MOST_DESCRIBED: usize = 64 << 20;
-/// Senders of a source that have channels of their own.
-const MOST_SENDERS: usize = 1024;
-/// Who the others share their channel under.
-const ANYBODY: SocketAddr = SocketAddr::new(std::net::IpAddr::V4(Ipv4Addr::UNSPECIFIED), 0);

@@ -2,7 +2,7 @@
 
 use super::{Controlled, Status};
 use crate::recording::TakeName;
-use posewire_mxtp::remote::{Content, Message};
+use posewire_mxtp::remote::{Content, Element, Message};
 use std::net::IpAddr;
 
 /// Takes messages and answers them.
@@ -31,14 +31,9 @@ impl Desk {
 
     /// Takes a message. `own` is the address by which its sender knows this machine.
     pub(super) fn handle(&mut self, bytes: &[u8], own: impl FnOnce() -> Option<IpAddr>) -> Handled {
-        let request = match Message::decode(bytes) {
-            Ok(message) => message.content,
-            Err(error) => {
-                return Handled {
-                    answer: None,
-                    said: Some(Err(error.to_string())),
-                };
-            }
+        let request = match understood(bytes) {
+            Ok(request) => request,
+            Err(refused) => return refused,
         };
         let status = self.controlled.status();
         let answer = match &request {
@@ -116,6 +111,27 @@ impl Desk {
         let name = name.or_else(|| self.next.clone()).or_else(unnamed);
         self.controlled.start_recording(&name.ok_or("there is no name")?)
     }
+}
+
+/// What is asked for, or the refusal of it. A request that lacks something is answered, for it may come from a program that waits;
+/// what is no XML is not.
+fn understood(bytes: &[u8]) -> Result<Content, Handled> {
+    let refuse = |answer, reason| Handled {
+        answer,
+        said: Some(Err(reason)),
+    };
+    let element = Element::decode(bytes).map_err(|error| refuse(None, error.to_string()))?;
+    let request = element.name.strip_suffix("Req").map(str::to_owned);
+    let message = Message::of(element).map_err(|error| {
+        let reason = error.to_string();
+        let answer = request.map(|request| Content::Ack {
+            request,
+            result: false,
+            reason: Some(reason.clone()),
+        });
+        refuse(answer.map(Message::from), format!("refused: {reason}"))
+    })?;
+    Ok(message.content)
 }
 
 /// `walk`, or `walk-001` where the take has a number. An empty name is none.
@@ -235,6 +251,24 @@ mod tests {
         );
         assert_eq!(caller.ask("<CaptureStart/>"), "<CaptureStartAck Result=\"TRUE\"/>");
         assert!(caller.ask("<SessionInfoReq/>").contains("SessionName=\"take\""));
+    }
+
+    #[test]
+    fn a_request_that_lacks_what_it_needs_is_answered_and_told() {
+        let mut caller = Caller::new();
+        for (rest, lacks) in [
+            ("", "IpAddress"),
+            ("IpAddress='10.0.0.5'", "PortNumber"),
+            ("IpAddress='10.0.0.5' PortNumber='70000'", "70000"),
+        ] {
+            let text = format!("<AddNetworkStreamingTargetReq {rest}/>");
+            let answer = caller.ask(&text);
+            let begins = "<AddNetworkStreamingTargetAck Result=\"FALSE\" Reason=\"";
+            assert!(answer.starts_with(begins) && answer.contains(lacks), "{answer}");
+            let said = caller.0.handle(text.as_bytes(), || None).said;
+            assert!(said.unwrap().unwrap_err().contains(lacks));
+        }
+        assert_eq!(caller.ask("<StartRecordingAck Result=\"perhaps\"/>"), "");
     }
 
     #[test]

@@ -33,6 +33,7 @@
 mod desk;
 mod playing;
 mod recording;
+mod refusals;
 
 pub use playing::PlayingControl;
 pub use posewire_mxtp::remote::DEFAULT_PORT;
@@ -45,6 +46,7 @@ use crate::recording::TakeName;
 use crate::stop::Stop;
 use desk::Desk;
 use posewire_mxtp::remote::{Content, Element};
+use refusals::Refusals;
 use std::net::{IpAddr, SocketAddr};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
@@ -129,7 +131,7 @@ impl Remote {
             port: self.port,
             desk,
             tell,
-            problem_told: None,
+            refusals: Refusals::default(),
         };
         thread::spawn(move || serving.run(&stop))
     }
@@ -139,8 +141,7 @@ struct Serving {
     port: ServedPort,
     desk: Desk,
     tell: Tell,
-    /// When something that was refused was last told.
-    problem_told: Option<Instant>,
+    refusals: Refusals,
 }
 
 impl Serving {
@@ -153,7 +154,11 @@ impl Serving {
                 Ok(None) => {}
                 Err(_) => _ = stop.wait(LOOK_EVERY),
             }
+            let more = self.refusals.more(Instant::now());
+            self.tell_more(more);
         }
+        let more = self.refusals.rest();
+        self.tell_more(more);
     }
 
     fn answer(&mut self, bytes: &[u8], from: SocketAddr) {
@@ -165,17 +170,16 @@ impl Serving {
         }
         match handled.said {
             Some(Ok(done)) => (self.tell)(&format!("{from}: {done}")),
-            Some(Err(problem)) => self.tell_problem(&format!("{from}: {problem}")),
-            None => {}
+            Some(Err(problem)) if self.refusals.is_to_be_told(Instant::now()) => {
+                (self.tell)(&format!("{from}: {problem}"));
+            }
+            _ => {}
         }
     }
 
-    /// Whoever sends rubbish cannot fill the screen with it.
-    fn tell_problem(&mut self, line: &str) {
-        let now = Instant::now();
-        if self.problem_told.is_none_or(|told| now >= told + PROBLEMS_EVERY) {
-            self.problem_told = Some(now);
-            (self.tell)(line);
+    fn tell_more(&mut self, refused: Option<u64>) {
+        if let Some(refused) = refused {
+            (self.tell)(&format!("and {refused} more refused"));
         }
     }
 }
@@ -192,4 +196,3 @@ fn own_address(port: &ServedPort, from: SocketAddr) -> Option<IpAddr> {
 /// Why something is refused that is done elsewhere.
 const NOT_HERE: &str = "this cannot be done here";
 const LOOK_EVERY: Duration = Duration::from_millis(50);
-const PROBLEMS_EVERY: Duration = Duration::from_secs(1);

@@ -20,9 +20,11 @@ impl RecordingControl {
 }
 
 impl Controlled for RecordingControl {
+    /// One that cannot be written any more is recorded no more.
     fn status(&self) -> Status {
         let progress = self.takes.progress();
-        let file = progress.recording.map(|recording| recording.recorded.file);
+        let recording = progress.recording.filter(|take| take.recorded.failure.is_none());
+        let file = recording.map(|recording| recording.recorded.file);
         let stem = |file: std::path::PathBuf| file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         Status {
             recording: file.and_then(stem),

@@ -86,7 +86,7 @@ pub struct Replayed {
     pub rounds: u64,
     /// Datagrams for which there is no target: MXTP without an MXTP target, NatNet without a NatNet target.
     pub without_target: u64,
-    /// What NatNet clients had sent, which a server does not send again.
+    /// What NatNet clients had asked and what they were answered: the server that replays answers by itself.
     pub asked: u64,
     /// How long after it was due each datagram was on its way.
     pub lateness: Summary,

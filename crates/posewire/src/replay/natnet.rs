@@ -86,12 +86,8 @@ impl RawServer {
         self.is_group || !self.shared.lock().clients().is_empty()
     }
 
-    /// Sends a frame that was due at `offset` to all who get frames. What else the captured server sent was an answer, and is left
-    /// out.
+    /// Sends a frame that was due at `offset` to all who get frames.
     pub(super) fn send(&mut self, offset: Duration, bytes: &[u8]) {
-        if !Packet::decode(bytes).is_ok_and(|packet| packet.id == MessageId::FRAME) {
-            return;
-        }
         let due = self.at(offset);
         for frame in self.shared.relay(bytes) {
             match &mut self.faults {
@@ -169,6 +165,18 @@ impl RawServer {
             peers,
             ..self.counts.clone()
         }
+    }
+}
+
+/// Whether a packet is a frame, and not a question or an answer.
+pub(super) fn is_frame(bytes: &[u8]) -> bool {
+    Packet::decode(bytes).is_ok_and(|packet| packet.id == MessageId::FRAME)
+}
+
+impl Drop for RawServer {
+    /// One that was never finished, as another target could not be opened, does not answer for ever.
+    fn drop(&mut self) {
+        self.shared.ending.stop();
     }
 }
 

@@ -1,8 +1,8 @@
 //! Where a capture is sent.
 
 use super::Replayed;
-use super::natnet::RawServer;
-use crate::capture::{CaptureOptions, Protocol, Survey, is_asked};
+use super::natnet::{RawServer, is_frame};
+use crate::capture::{CaptureOptions, Protocol, Survey};
 use crate::endpoint::Endpoint;
 use crate::faults::{FaultCounts, FaultPlan, Faults};
 use crate::sink::{MxtpTarget, TargetProgress};
@@ -61,7 +61,7 @@ impl Targets {
         let is_for_any = self.all.iter().any(is_for);
         if !is_for_any {
             replayed.without_target += 1;
-        } else if protocol == Protocol::NatNet && is_asked(&datagram.bytes) {
+        } else if protocol == Protocol::NatNet && !is_frame(&datagram.bytes) {
             replayed.asked += 1;
             return false;
         }

@@ -1,8 +1,13 @@
 //! Records a session.
 
+mod syncing;
+#[cfg(test)]
+mod tests;
+
+use crate::doctor::Senders;
 use crate::endpoint::Endpoint;
 use crate::queue::Policy;
-use crate::recording::{Briefing, Writer, WriterOptions};
+use crate::recording::{Briefing, Whereabouts, Writer, WriterOptions};
 use crate::stats::Statistics;
 use crate::stop::Stop;
 use crate::{Error, Item, Result, Sink, SourceId, Wants};
@@ -10,8 +15,8 @@ use posewire_motion::{Frame, Stamp};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
+use syncing::Syncing;
 
 /// How a session is recorded.
 pub type RecordOptions = WriterOptions;
@@ -21,6 +26,7 @@ pub type RecordOptions = WriterOptions;
 /// What has come is in the file at most [`FLUSH_EVERY`](Self::FLUSH_EVERY) later, where it survives the end of this program, and on
 /// the disk a second later. When nothing more can be written, as on a full disk, what was written stays readable, the session
 /// is stopped, and everything from there on is counted in [`RecordProgress::unwritten`]; [`finish`](Sink::finish) gives the error.
+/// So it does when somebody removes the file, which is noticed within a second.
 ///
 /// ```
 /// use posewire::sink::{RecordOptions, RecordSink};
@@ -45,8 +51,13 @@ pub struct RecordSink {
     stop: Stop,
     /// When the oldest of what is not in the file is to be there.
     due: Option<Instant>,
-    /// Items since the last flush, which are lost if the next one fails.
-    unflushed: u64,
+    /// When to look next whether the file is still there.
+    look: Instant,
+    /// What was in the files after the last flush, which is what is left if the next one fails.
+    flushed: Counted,
+    /// What is in the files before the present one.
+    finished: Counted,
+    senders: BTreeMap<SourceId, Senders>,
     progress: RecordProgress,
     shared: Arc<Mutex<RecordProgress>>,
     subjects: BTreeMap<(SourceId, u32), usize>,
@@ -72,7 +83,10 @@ pub struct RecordProgress {
     pub unwritten: u64,
     /// Descriptions of subjects that changed more often than [`Writer::subject`] writes; no data is lost by that.
     pub descriptions_left_out: u64,
-    /// Why nothing more is written.
+    /// Whether somebody has moved the file that is written, into which the recording goes on.
+    pub moved: bool,
+    /// Why nothing more is written. Then [`sources`](Self::sources) and [`subjects`](Self::subjects) have counts of what is in the
+    /// files, and [`unwritten`](Self::unwritten) has the rest.
     pub failure: Option<Error>,
 }
 
@@ -87,6 +101,8 @@ pub struct RecordedSource {
     pub bytes: u64,
     /// When the last one was received.
     pub last: Option<Stamp>,
+    /// Senders that send the same characters, or frames to the same group, at the same time: a sentence for each such case.
+    pub two_senders: Vec<String>,
     /// How the source itself is doing.
     pub statistics: Option<Arc<Statistics>>,
 }
@@ -151,6 +167,7 @@ impl RecordSink {
             datagrams: 0,
             bytes: 0,
             last: None,
+            two_senders: Vec::new(),
             statistics: None,
         });
         let progress = RecordProgress {
@@ -165,7 +182,10 @@ impl RecordSink {
             failure: None,
             stop,
             due: None,
-            unflushed: 0,
+            look: Instant::now() + LOOK_EVERY,
+            flushed: Counted::default(),
+            finished: Counted::default(),
+            senders: BTreeMap::new(),
             shared: Arc::new(Mutex::new(progress.clone())),
             progress,
             subjects: BTreeMap::new(),
@@ -183,6 +203,13 @@ impl RecordSink {
     }
 
     fn record(&mut self, source: SourceId, item: &Item) -> Result<()> {
+        if self
+            .writer
+            .as_ref()
+            .is_some_and(|writer| !writer.has_room_for(length_of(item)))
+        {
+            self.flush()?;
+        }
         let Some(writer) = &mut self.writer else {
             self.progress.unwritten += u64::from(is_data(item));
             return Ok(());
@@ -190,6 +217,7 @@ impl RecordSink {
         match item {
             Item::Datagram(datagram) => {
                 writer.datagram(source, datagram)?;
+                self.senders.entry(source).or_default().datagram(datagram);
                 if let Some(source) = self.progress.sources.get_mut(usize::from(source.0)) {
                     source.datagrams += 1;
                     source.bytes += datagram.bytes.len() as u64;
@@ -209,7 +237,6 @@ impl RecordSink {
             }
             Item::Notice(_) => return Ok(()),
         }
-        self.unflushed += u64::from(is_data(item));
         self.due.get_or_insert_with(|| Instant::now() + Self::FLUSH_EVERY);
         Ok(())
     }
@@ -237,22 +264,72 @@ impl RecordSink {
     }
 
     fn flush(&mut self) -> Result<()> {
-        self.due = None;
+        self.hand_over()?;
         if let Some(writer) = &mut self.writer {
-            writer.flush()?;
-            self.unflushed = 0;
+            if writer.split(self.progress.dropped)? {
+                self.finished = self.flushed.clone();
+            }
             self.syncing.follow(writer);
+            self.syncing.failure()?;
         }
         self.publish();
         Ok(())
     }
 
+    fn hand_over(&mut self) -> Result<()> {
+        self.due = None;
+        if let Some(writer) = &mut self.writer {
+            writer.hand_over()?;
+            self.flushed = Counted::of(&self.progress, writer);
+        }
+        Ok(())
+    }
+
+    /// Completes the file, after all that is to be in it is.
+    fn close(&mut self) -> Result<()> {
+        if let Some(writer) = &mut self.writer {
+            writer.release()?;
+        }
+        self.hand_over()?;
+        self.look()?;
+        self.publish();
+        if let Some(mut writer) = self.writer.take() {
+            writer.path().clone_into(&mut self.progress.file);
+            let closed = writer.close(self.progress.dropped);
+            self.progress.bytes = writer.length();
+            closed?;
+        }
+        Ok(())
+    }
+
+    /// Looks whether the file is still there, and who sends.
+    fn look(&mut self) -> Result<()> {
+        self.look = Instant::now() + LOOK_EVERY;
+        for (source, senders) in &self.senders {
+            if let Some(source) = self.progress.sources.get_mut(usize::from(source.0)) {
+                source.two_senders = senders.findings().map(|finding| finding.what).collect();
+            }
+        }
+        let Some(writer) = &self.writer else { return Ok(()) };
+        let whereabouts = writer.whereabouts();
+        self.progress.moved = whereabouts == Some(Whereabouts::Moved);
+        if whereabouts == Some(Whereabouts::Removed) {
+            let path = writer.path().to_owned();
+            return Err(Error::Removed { path });
+        }
+        Ok(())
+    }
+
     /// Ends the recording at what was flushed.
     fn fail(&mut self, error: Error) {
+        let is_gone = matches!(error, Error::Removed { .. });
         if let Some(mut writer) = self.writer.take() {
-            writer.abandon();
+            writer.path().clone_into(&mut self.progress.file);
+            writer.abandon(is_gone);
+            self.progress.bytes = writer.length();
         }
-        self.progress.unwritten += std::mem::take(&mut self.unflushed) + 1;
+        let left = if is_gone { &self.finished } else { &self.flushed };
+        self.progress.unwritten += left.restore(&mut self.progress);
         self.progress.failure = Some(error.clone());
         self.failure = Some(error);
         self.due = None;
@@ -284,6 +361,7 @@ impl Sink for RecordSink {
     fn accept(&mut self, source: SourceId, item: &Item) -> Result<()> {
         if let Err(error) = self.record(source, item) {
             self.fail(error);
+            self.progress.unwritten += u64::from(is_data(item));
         }
         Ok(())
     }
@@ -294,31 +372,28 @@ impl Sink for RecordSink {
     }
 
     fn timeout(&self) -> Option<Instant> {
-        self.due
+        self.writer.as_ref()?;
+        Some(self.due.map_or(self.look, |due| due.min(self.look)))
     }
 
     fn handle_timeout(&mut self) -> Result<()> {
-        if let Err(error) = self.flush() {
+        let is_time_to_look = Instant::now() >= self.look;
+        let looked = if is_time_to_look { self.look() } else { Ok(()) };
+        if let Err(error) = looked.and_then(|()| self.flush()) {
             self.fail(error);
         }
         Ok(())
     }
 
     fn finish(&mut self) -> Result<()> {
-        if let Some(mut writer) = self.writer.take() {
-            writer.path().clone_into(&mut self.progress.file);
-            self.progress.files = writer.files();
-            self.progress.descriptions_left_out = writer.descriptions_left_out();
-            match writer.close(self.progress.dropped) {
-                Ok(()) => self.progress.bytes = writer.length(),
-                Err(error) => {
-                    self.writer = Some(writer);
-                    self.fail(error);
-                }
-            }
+        if let Err(error) = self.close() {
+            self.fail(error);
         }
-        self.publish();
         self.syncing.end();
+        match self.syncing.failure() {
+            Err(error) if self.failure.is_none() => self.fail(error),
+            _ => self.publish(),
+        }
         self.failure.take().map_or(Ok(()), Err)
     }
 }
@@ -331,6 +406,49 @@ impl std::fmt::Debug for RecordSink {
     }
 }
 
+/// What of each source and subject is in the files.
+#[derive(Clone, Debug, Default)]
+struct Counted {
+    /// Datagrams and their bytes.
+    sources: Vec<(u64, u64)>,
+    subjects: Vec<u64>,
+}
+
+impl Counted {
+    fn of(progress: &RecordProgress, writer: &Writer) -> Self {
+        let sources = progress.sources.iter().map(|source| (source.datagrams, source.bytes));
+        let written = |subject: &RecordedSubject| {
+            let held = writer.held(subject.source, subject.id);
+            subject.frames.saturating_sub(held)
+        };
+        Self {
+            sources: sources.collect(),
+            subjects: progress.subjects.iter().map(written).collect(),
+        }
+    }
+
+    /// Takes the counts back to these, and gives how many datagrams and samples that takes away.
+    fn restore(&self, progress: &mut RecordProgress) -> u64 {
+        let before = progress.datagrams() + progress.frames();
+        for (place, source) in progress.sources.iter_mut().enumerate() {
+            (source.datagrams, source.bytes) = self.sources.get(place).copied().unwrap_or_default();
+        }
+        for (place, subject) in progress.subjects.iter_mut().enumerate() {
+            subject.frames = self.subjects.get(place).copied().unwrap_or_default();
+        }
+        before - progress.datagrams() - progress.frames()
+    }
+}
+
+/// About how many bytes an item takes in the file.
+fn length_of(item: &Item) -> u64 {
+    match item {
+        Item::Datagram(datagram) => AROUND + datagram.bytes.len() as u64,
+        Item::Frame { frame, .. } => AROUND + TRANSFORM * frame.subject.skeleton.segments.len() as u64,
+        _ => 0,
+    }
+}
+
 /// Whether an item is a datagram or a sample.
 fn is_data(item: &Item) -> bool {
     matches!(item, Item::Datagram(_) | Item::Frame { .. })
@@ -340,55 +458,8 @@ fn lock<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
     shared.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A thread that sees the file onto the disk once a second, so that what is written outlives the machine, and no write waits
-/// for it.
-struct Syncing {
-    file: Arc<Mutex<Option<std::fs::File>>>,
-    path: PathBuf,
-    ending: Stop,
-    thread: Option<JoinHandle<()>>,
-}
-
-impl Syncing {
-    fn start(writer: &Writer) -> Self {
-        let file = Arc::new(Mutex::new(writer.handle()));
-        let (synced, ending) = (Arc::clone(&file), Stop::new());
-        let end = ending.clone();
-        let thread = thread::spawn(move || {
-            while !end.wait(SYNC_EVERY) {
-                let file = lock(&synced).as_ref().and_then(|file| file.try_clone().ok());
-                // What cannot be synced, as a pipe, is not on this disk; a disk that fails also fails to be written.
-                file.map(|file| file.sync_data());
-            }
-        });
-        Self {
-            file,
-            path: writer.path().to_owned(),
-            ending,
-            thread: Some(thread),
-        }
-    }
-
-    /// Goes on with the file that is written now.
-    fn follow(&mut self, writer: &Writer) {
-        if self.path != writer.path() {
-            writer.path().clone_into(&mut self.path);
-            *lock(&self.file) = writer.handle();
-        }
-    }
-
-    fn end(&mut self) {
-        self.ending.stop();
-        if let Some(thread) = self.thread.take() {
-            thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        }
-    }
-}
-
-impl Drop for Syncing {
-    fn drop(&mut self) {
-        self.ending.stop();
-    }
-}
-
-const SYNC_EVERY: Duration = Duration::from_secs(1);
+/// Between looks whether the file is still there.
+const LOOK_EVERY: Duration = Duration::from_secs(1);
+/// What a message has around it, and a transform in a message, with names as long as they are.
+const AROUND: u64 = 64;
+const TRANSFORM: u64 = 160;

@@ -10,7 +10,7 @@ use crate::stats::Statistics;
 use crate::stop::Stop;
 use crate::{Error, Item, Result, Sink, SourceId, Wants};
 use since::since;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -48,7 +48,10 @@ pub struct TakesSink {
 /// Begins and ends the takes of a [`TakesSink`], from any thread. Clones are the same takes.
 #[derive(Clone, Debug)]
 pub struct Takes {
+    /// Held while something is written, which may take as long as the disk likes.
     state: Arc<Mutex<State>>,
+    /// Never held for long.
+    told: Arc<Mutex<Told>>,
 }
 
 /// How far a take has come, or how it went.
@@ -85,19 +88,34 @@ struct State {
     /// What the queue has dropped.
     dropped: u64,
     take: Option<Take>,
+    /// The sources whose statistics of the last moments of a take are still to come.
+    owed: BTreeSet<SourceId>,
+    ended: bool,
+}
+
+/// What others may know at any time, also while the disk is stuck.
+#[derive(Debug, Default)]
+struct Told {
+    running: Option<Running>,
     cut_short: Option<TakeProgress>,
     takes: u32,
+    /// The sources and how many datagrams came from each.
+    sources: Vec<(Endpoint, u64)>,
     /// Of takes that were ended.
     lost: u64,
-    /// Whether a take has ended of whose last moments the statistics are still to come.
-    owed: bool,
-    ended: bool,
+}
+
+/// A take that is recorded, as others see it.
+#[derive(Clone, Debug)]
+struct Running {
+    recorded: Arc<Mutex<RecordProgress>>,
+    begun: Instant,
 }
 
 #[derive(Debug)]
 struct Take {
     sink: RecordSink,
-    begun: Instant,
+    running: Running,
     /// How the sources were doing when it began.
     statistics: BTreeMap<SourceId, Arc<Statistics>>,
     dropped: u64,
@@ -118,14 +136,17 @@ impl TakesSink {
             statistics: BTreeMap::new(),
             dropped: 0,
             take: None,
-            cut_short: None,
-            takes: 0,
-            lost: 0,
-            owed: false,
+            owed: BTreeSet::new(),
             ended: false,
         };
-        let state = Arc::new(Mutex::new(state));
-        Self { takes: Takes { state } }
+        let told = Told {
+            sources: sources.iter().map(|endpoint| (endpoint.clone(), 0)).collect(),
+            ..Told::default()
+        };
+        let (state, told) = (Arc::new(Mutex::new(state)), Arc::new(Mutex::new(told)));
+        Self {
+            takes: Takes { state, told },
+        }
     }
 
     /// The means to begin and end takes.
@@ -135,13 +156,23 @@ impl TakesSink {
 }
 
 impl Takes {
-    /// Begins a take, and gives its file: `walk.mcap`, or `walk_2.mcap` where that is there.
+    /// Begins a take, and gives its file: `walk.mcap`, or `walk_2.mcap` where that is there. One that could not be written any
+    /// more does not stand in its way.
     ///
     /// # Errors
     /// [`Error::TakeRuns`] while another is recorded, [`Error::Stopped`] when the session is over, [`Error::Write`] when the
     /// file cannot be written.
     pub fn begin(&self, name: &TakeName) -> Result<PathBuf> {
-        self.lock().begin(name)
+        let has_failed = |running: &Running| lock(&running.recorded).failure.is_some();
+        if lock(&self.told).running.as_ref().is_some_and(has_failed) {
+            self.close();
+        }
+        let mut state = self.lock();
+        let (file, running) = state.begin(name)?;
+        let mut told = lock(&self.told);
+        told.takes += 1;
+        told.running = Some(running);
+        Ok(file)
     }
 
     /// Ends the take, and gives how it went; `None` when there is none. Its file is complete when this returns.
@@ -149,65 +180,95 @@ impl Takes {
     /// # Errors
     /// Why not everything could be written.
     pub fn end(&self) -> Result<Option<TakeProgress>> {
-        let take = self.lock().take.take();
-        let Some(mut take) = take else { return Ok(None) };
-        let lasted = take.begun.elapsed();
-        // The streams do not wait while the file is seen onto the disk.
-        let finished = take.sink.finish();
-        let progress = TakeProgress {
-            lasted,
-            ..take.progress()
-        };
-        let mut state = self.lock();
-        state.lost += progress.recorded.lost();
-        state.owed = true;
-        finished.map(|()| Some(progress))
+        let ended = self.close();
+        match ended.as_ref().and_then(|take| take.recorded.failure.clone()) {
+            Some(error) => Err(error),
+            None => Ok(ended),
+        }
     }
 
     /// How far they have come.
     pub fn progress(&self) -> TakesProgress {
-        let state = self.lock();
-        let recording = state.take.as_ref().map(Take::progress);
-        let sources = (0..=u16::MAX).map(SourceId).zip(&state.sources);
-        let heard = |(id, endpoint): (SourceId, &Endpoint)| {
-            let statistics = state.statistics.get(&id);
-            let datagrams = statistics.map_or(0, |statistics| statistics.datagrams);
-            (endpoint.clone(), datagrams)
-        };
+        let told = lock(&self.told);
+        let recording = told.running.as_ref().map(Running::progress);
         TakesProgress {
-            cut_short: state.cut_short.clone(),
-            takes: state.takes,
-            sources: sources.map(heard).collect(),
-            lost: state.lost + recording.as_ref().map_or(0, |take| take.recorded.lost()),
+            cut_short: told.cut_short.clone(),
+            takes: told.takes,
+            sources: told.sources.clone(),
+            lost: told.lost + recording.as_ref().map_or(0, |take| take.recorded.lost()),
             recording,
         }
     }
 
+    /// Ends the take, and gives how it went, also when not everything could be written.
+    fn close(&self) -> Option<TakeProgress> {
+        let mut take = self.lock().end()?;
+        let lasted = take.running.begun.elapsed();
+        // The streams do not wait while the file is seen onto the disk. Why it cannot be, its progress says.
+        let _ = take.sink.finish();
+        let ended = TakeProgress {
+            lasted,
+            ..take.running.progress()
+        };
+        let mut told = lock(&self.told);
+        // Another may have begun meanwhile.
+        told.running.take_if(|running| running.is(&take.running));
+        let is_incomplete = ended.recorded.failure.is_some();
+        told.lost += ended.recorded.lost().max(is_incomplete.into());
+        Some(ended)
+    }
+
+    fn accept(&self, source: SourceId, item: &Item) -> Result<()> {
+        let mut state = self.lock();
+        if let Item::Statistics(statistics) = item {
+            let mut told = lock(&self.told);
+            if let Some((_, datagrams)) = told.sources.get_mut(usize::from(source.0)) {
+                *datagrams = statistics.datagrams;
+            }
+            told.lost += state.lost_between(source, statistics);
+        }
+        state.accept(source, item)
+    }
+
     fn lock(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.state)
     }
 }
 
+fn lock<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 impl State {
-    fn begin(&mut self, name: &TakeName) -> Result<PathBuf> {
+    fn begin(&mut self, name: &TakeName) -> Result<(PathBuf, Running)> {
         if self.ended {
             let what = "no more is recorded".to_owned();
             return Err(Error::Stopped { what });
         }
         if let Some(take) = &self.take {
-            let file = take.progress().recorded.file;
+            let file = take.running.progress().recorded.file;
             return Err(Error::TakeRuns { file });
         }
         let (mut sink, file) = self.create(name)?;
         sink.brief(&self.briefing)?;
-        self.takes += 1;
+        let running = Running {
+            recorded: sink.progress(),
+            begun: Instant::now(),
+        };
         self.take = Some(Take {
             sink,
-            begun: Instant::now(),
+            running: running.clone(),
             statistics: self.statistics.clone(),
             dropped: self.dropped,
         });
-        Ok(file)
+        Ok((file, running))
+    }
+
+    fn end(&mut self) -> Option<Take> {
+        let ended = self.take.take()?;
+        let sources = (0..=u16::MAX).map(SourceId);
+        self.owed = sources.zip(&self.sources).map(|(id, _)| id).collect();
+        Some(ended)
     }
 
     /// Creates the first file of the name that is free.
@@ -230,31 +291,38 @@ impl State {
 
     fn accept(&mut self, source: SourceId, item: &Item) -> Result<()> {
         self.briefing.note(source, item);
+        if let Item::Statistics(statistics) = item {
+            self.statistics.insert(source, Arc::clone(statistics));
+        }
+        let Some(take) = &mut self.take else { return Ok(()) };
         let Item::Statistics(statistics) = item else {
-            let take = self.take.as_mut();
-            return take.map_or(Ok(()), |take| take.sink.accept(source, item));
+            return take.sink.accept(source, item);
         };
-        let before = self.statistics.insert(source, Arc::clone(statistics));
-        if let Some(take) = &mut self.take {
-            let begun = take.statistics.get(&source);
-            let since = since(statistics, begun.map(|begun| &**begun));
-            return take.sink.accept(source, &Item::Statistics(Arc::new(since)));
+        let begun = take.statistics.get(&source);
+        let since = since(statistics, begun.map(|begun| &**begun));
+        take.sink.accept(source, &Item::Statistics(Arc::new(since)))
+    }
+
+    /// What these statistics say the kernel lost of the last moments of a take that has ended.
+    fn lost_between(&mut self, source: SourceId, statistics: &Statistics) -> u64 {
+        if !self.owed.remove(&source) || self.take.is_some() {
+            return 0;
         }
-        if std::mem::take(&mut self.owed) {
-            let before = before.map_or(0, |before| before.kernel_dropped);
-            self.lost += statistics.kernel_dropped.saturating_sub(before);
-        }
-        Ok(())
+        let before = self.statistics.get(&source).map_or(0, |before| before.kernel_dropped);
+        statistics.kernel_dropped.saturating_sub(before)
     }
 }
 
-impl Take {
+impl Running {
     fn progress(&self) -> TakeProgress {
-        let progress = self.sink.progress();
         TakeProgress {
-            recorded: progress.lock().unwrap_or_else(PoisonError::into_inner).clone(),
+            recorded: lock(&self.recorded).clone(),
             lasted: self.begun.elapsed(),
         }
+    }
+
+    fn is(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.recorded, &other.recorded)
     }
 }
 
@@ -268,7 +336,7 @@ impl Sink for TakesSink {
     }
 
     fn accept(&mut self, source: SourceId, item: &Item) -> Result<()> {
-        self.takes.lock().accept(source, item)
+        self.takes.accept(source, item)
     }
 
     fn dropped(&mut self, dropped: u64) {
@@ -291,8 +359,9 @@ impl Sink for TakesSink {
 
     fn finish(&mut self) -> Result<()> {
         self.takes.lock().ended = true;
-        let cut_short = self.takes.end()?;
-        self.takes.lock().cut_short = cut_short;
+        // What became of it is told with it.
+        let cut_short = self.takes.close();
+        lock(&self.takes.told).cut_short = cut_short;
         Ok(())
     }
 }

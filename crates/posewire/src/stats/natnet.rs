@@ -1,11 +1,13 @@
 //! Statistics of NatNet.
 
+mod heard;
+
 use std::collections::BTreeMap;
 use std::net::SocketAddr;
 use std::sync::Arc;
 use std::time::Duration;
 
-use posewire_motion::{Frame, Stamp, Subject, Timecode};
+use posewire_motion::{Frame, Stamp, Subject};
 use posewire_natnet::client::{Client, ClockEstimate, FrameCounts, Mode, ReceivedFrame};
 use posewire_natnet::command::ServerInfo;
 use posewire_natnet::frame::{FrameParams, HostStamps};
@@ -13,11 +15,10 @@ use posewire_natnet::model::{Description, Model};
 use posewire_natnet::{Quirks, Version};
 
 use super::arrivals::Arrivals;
-use super::{
-    Clock, Counters, DatagramKind, Latencies, ModelCounts, ServerStatistics, Statistics, SubjectStatistics, Tracking,
-};
+use super::{Clock, Counters, DatagramKind, Latencies, ModelCounts, ServerStatistics, Statistics};
 use crate::endpoint::NatNetAddress;
 use crate::histogram::DurationHistogram;
+use heard::Heard;
 
 /// Counts what arrives from a NatNet server, besides what the client counts.
 #[derive(Debug)]
@@ -42,18 +43,6 @@ pub(crate) struct NatNetTally {
     /// Frames so far; the newest has this number.
     frames: u64,
     subjects: BTreeMap<u32, Heard>,
-}
-
-#[derive(Debug)]
-struct Heard {
-    subject: Arc<Subject>,
-    timecode: Option<Timecode>,
-    tracked: usize,
-    /// The frame that held it last.
-    latest: u64,
-    /// Frames since the one before it was heard of, and how many of them tracked all of it.
-    before: u64,
-    whole: u64,
 }
 
 /// What the sockets and clocks know and the client does not.
@@ -136,14 +125,7 @@ impl NatNetTally {
     }
 
     pub(crate) fn subject(&mut self, subject: &Arc<Subject>) {
-        let fresh = || Heard {
-            subject: Arc::clone(subject),
-            timecode: None,
-            tracked: 0,
-            latest: 0,
-            before: self.frames.saturating_sub(1),
-            whole: 0,
-        };
+        let fresh = || Heard::new(subject, self.frames);
         let heard = self.subjects.entry(subject.id).or_insert_with(fresh);
         heard.subject = Arc::clone(subject);
     }
@@ -161,13 +143,9 @@ impl NatNetTally {
 
     /// What the frame says of one subject.
     pub(crate) fn sample(&mut self, frame: &Frame) {
-        let Some(heard) = self.subjects.get_mut(&frame.subject.id) else {
-            return;
-        };
-        heard.timecode = frame.timecode.or(heard.timecode);
-        heard.latest = self.frames;
-        heard.tracked = frame.position.iter().flatten().count();
-        heard.whole += u64::from(heard.tracked == frame.subject.skeleton.segments.len());
+        if let Some(heard) = self.subjects.get_mut(&frame.subject.id) {
+            heard.sample(frame, self.frames);
+        }
     }
 
     /// The numbers so far. Rates are those since the last report.
@@ -272,27 +250,6 @@ impl NatNetTally {
     }
 }
 
-impl Heard {
-    /// `frames` is the number of the newest frame.
-    fn report(&self, frames: u64) -> SubjectStatistics {
-        let segments = self.subject.skeleton.segments.len();
-        let tracking = Tracking {
-            segments,
-            tracked: if self.latest == frames { self.tracked } else { 0 },
-            frames_untracked: (frames - self.before).saturating_sub(self.whole),
-            awaited: self.latest == 0,
-        };
-        SubjectStatistics {
-            subject: Arc::clone(&self.subject),
-            timecode: self.timecode,
-            streams: Vec::new(),
-            samples: None,
-            transit: None,
-            tracking: (segments > 0).then_some(tracking),
-        }
-    }
-}
-
 fn duration(ticks: u64, frequency: u64) -> Option<Duration> {
     let nanoseconds = (u128::from(ticks) * 1_000_000_000).checked_div(frequency.into())?;
     Some(Duration::from_nanos(u64::try_from(nanoseconds).unwrap_or(u64::MAX)))
@@ -327,15 +284,6 @@ fn counts(model: &Model) -> ModelCounts {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use posewire_motion::{DVec3, Segment, SegmentKind, Skeleton};
-
-    fn body() -> Arc<Subject> {
-        let skeleton = Skeleton {
-            segments: vec![Segment::new("Wand", SegmentKind::Body)],
-            ..Skeleton::default()
-        };
-        Arc::new(Subject::new("Wand", skeleton))
-    }
 
     fn received(stamps: HostStamps) -> ReceivedFrame {
         let frame = posewire_natnet::frame::Frame {
@@ -348,36 +296,6 @@ mod tests {
             order: posewire_natnet::client::FrameOrder::Next,
             quirks: Quirks::NONE,
         }
-    }
-
-    fn tracking(tally: &NatNetTally) -> Tracking {
-        tally.subjects[&0].report(tally.frames).tracking.unwrap()
-    }
-
-    #[test]
-    fn a_body_is_lost_when_its_position_or_the_body_itself_is_missing() {
-        let (mut tally, body) = (NatNetTally::new(Stamp(0)), body());
-        let mut sample = Frame::new(Arc::clone(&body));
-        let next = |tally: &mut NatNetTally| tally.frame(&received(HostStamps::default()), Stamp(0), None);
-        next(&mut tally);
-        next(&mut tally);
-        tally.subject(&body);
-        assert!(tracking(&tally).awaited);
-        sample.position = vec![Some(DVec3::ZERO)];
-        tally.sample(&sample);
-        let whole = Tracking {
-            segments: 1,
-            tracked: 1,
-            frames_untracked: 0,
-            awaited: false,
-        };
-        assert_eq!(tracking(&tally), whole);
-        next(&mut tally);
-        assert_eq!((tracking(&tally).tracked, tracking(&tally).frames_untracked), (0, 1));
-        next(&mut tally);
-        sample.position = vec![None];
-        tally.sample(&sample);
-        assert_eq!((tracking(&tally).tracked, tracking(&tally).frames_untracked), (0, 2));
     }
 
     #[test]

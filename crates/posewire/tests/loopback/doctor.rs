@@ -160,12 +160,19 @@ fn two_senders_of_one_character_are_found() {
     let (listener, place) = listener();
     let senders = [sender(), sender()];
     for sample in 0..20 {
-        for sender in &senders {
-            send_pose(sender, place, sample, |_| {});
+        for (number, sender) in senders.iter().enumerate() {
+            send_pose(sender, place, sample + 7 * number as u32, |_| {});
         }
     }
     let listened = found(listener);
     assert_broken(&listened, &[Check::TwoSenders]);
+    let of_numbering = [Check::Loss, Check::Duplicates, Check::SenderRestarts];
+    let mut checks = listened.findings.iter().map(|finding| finding.check);
+    assert!(
+        !checks.any(|check| of_numbering.contains(&check)),
+        "{:#?}",
+        listened.findings
+    );
     for sender in &senders {
         let address = sender.local_addr().unwrap().to_string();
         assert!(finding(&listened, Check::TwoSenders).what.contains(&address));

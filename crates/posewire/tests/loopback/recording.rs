@@ -210,6 +210,7 @@ fn each_file_of_a_split_recording_stands_alone() {
         let survey = Survey::of(&path).unwrap();
         assert!(survey.complete);
         assert_eq!(survey.about["part"], (part + 1).to_string());
+        assert_eq!(survey.continued, part < 3);
         assert_eq!(survey.sources[0].endpoint, "natnet://127.0.0.1:1510");
         let repeated: Vec<_> = messages(&path, "repeated").iter().map(|message| message.1).collect();
         assert_eq!(repeated, if part == 0 { vec![] } else { vec![3] });

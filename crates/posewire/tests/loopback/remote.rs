@@ -6,11 +6,13 @@ use posewire::recording::Survey;
 use posewire::remote::{Controlled, PlayingControl, RecordingControl, Remote};
 use posewire::sink::{MxtpSink, TakesSink};
 use posewire::stop::Stop;
-use posewire::{Session, Source};
+use posewire::{Datagram, Error, Item, Session, Sink, Source, SourceId, Wire};
+use posewire_motion::Stamp;
 use posewire_mxtp::Header;
 use std::fs;
 use std::net::{SocketAddr, UdpSocket};
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver as Heard};
 
 /// A program that controls another.
@@ -158,6 +160,11 @@ fn targets_come_and_go_while_a_stream_runs() {
             guest.port()
         )
     );
+    assert!(
+        client
+            .ask("<AddNetworkStreamingTargetReq/>")
+            .contains("Result=\"FALSE\"")
+    );
     for wrong in ["localhost", "0.0.0.0", "", "file:///etc/passwd"] {
         let answer = client.ask(&format!(
             "<AddNetworkStreamingTargetReq IpAddress='{wrong}' PortNumber='9763'/>"
@@ -173,13 +180,7 @@ fn rubbish_is_not_answered_and_harms_nothing() {
     let (ear, stop) = (Ear::open(), Stop::new());
     let (client, session) = controlled(open("synthetic:walk?rate=60").unwrap(), &ear, &stop);
     let bomb = "<!DOCTYPE a [<!ENTITY b \"&b;\">]><IdentifyReq>&b;</IdentifyReq>";
-    for rubbish in [
-        bomb,
-        "\u{1b}[2J",
-        "<AddNetworkStreamingTargetReq/>",
-        &"<A>".repeat(1000),
-        &"x".repeat(60_000),
-    ] {
+    for rubbish in [bomb, "\u{1b}[2J", &"<A>".repeat(1000), &"x".repeat(60_000)] {
         client.send(rubbish);
     }
     assert!(
@@ -324,4 +325,64 @@ fn a_take_that_cannot_be_written_is_refused_and_the_session_goes_on() {
     stop.stop();
     session.wait().unwrap();
     assert!(Survey::of(&takes_into.join("walk.mcap")).unwrap().complete);
+}
+
+#[test]
+fn a_take_that_could_not_be_completed_is_told_of_at_the_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let takes_folder = folder.path().join("takes");
+    fs::create_dir(&takes_folder).unwrap();
+    let mut sink = begin_to_fail(&takes_folder);
+    let takes = sink.takes();
+    sink.finish().unwrap();
+
+    let progress = takes.progress();
+    assert!(progress.recording.is_none());
+    let ended = progress.cut_short.unwrap().recorded;
+    assert!(
+        matches!(ended.failure, Some(Error::Write { .. })),
+        "{:?}",
+        ended.failure
+    );
+    // The first one was in the file when the next one could not be created.
+    assert_eq!((ended.datagrams(), ended.unwritten, progress.lost), (1, 1, 1));
+}
+
+#[test]
+fn a_take_that_cannot_be_written_is_not_in_the_way_of_the_next() {
+    let folder = tempfile::tempdir().unwrap();
+    let takes_folder = folder.path().join("takes");
+    fs::create_dir(&takes_folder).unwrap();
+    let takes = begin_to_fail(&takes_folder).takes();
+    let mut control = RecordingControl::new(takes.clone(), Box::new(|_| {}));
+    assert_eq!(control.status().recording, None);
+    assert!(control.start_recording(&"run".parse().unwrap()).is_err());
+    fs::create_dir(&takes_folder).unwrap();
+    control.start_recording(&"run".parse().unwrap()).unwrap();
+    assert_eq!(control.status().recording.as_deref(), Some("run"));
+    assert_eq!((takes.progress().takes, takes.progress().lost), (2, 1));
+}
+
+/// Takes of which the first could not be written to its end: each flush begins a new file, for which there is no folder.
+fn begin_to_fail(folder: &Path) -> TakesSink {
+    let endpoint: Endpoint = "mxtp://127.0.0.1:9763".parse().unwrap();
+    let mut sink = TakesSink::new(folder, &[endpoint], Some(1));
+    sink.takes().begin(&"walk".parse().unwrap()).unwrap();
+    fs::remove_dir_all(folder).unwrap();
+    for _ in 0..2 {
+        let item = Item::Datagram(datagram());
+        sink.accept(SourceId(0), &item).unwrap();
+        sink.handle_timeout().unwrap();
+    }
+    sink
+}
+
+fn datagram() -> Arc<Datagram> {
+    Arc::new(Datagram {
+        wire: Wire::MxtpUdp,
+        from: ([127, 0, 0, 1], 40_000).into(),
+        to: ([127, 0, 0, 1], 9763).into(),
+        received: Stamp(1_700_000_000_000_000_000),
+        bytes: (*b"MXTP02").into(),
+    })
 }

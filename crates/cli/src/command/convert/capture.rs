@@ -33,7 +33,7 @@ pub(super) fn walk(walk: &Walk, duration: Option<Duration>, stops: &Stops) -> an
 }
 
 /// A live stream until it is stopped or the time is over, or a whole capture: a take for each subject; and how much of it was
-/// lost on this side.
+/// lost on this side, of which all behind the damage of a file counts as one.
 pub(super) fn live(
     endpoint: &Endpoint,
     only: Option<&str>,
@@ -71,6 +71,7 @@ pub(super) fn live(
         }
         .into());
     }
+    let lost = lost + u64::from(teller.is_damaged());
     Ok((takes.into_iter().map(Recording::from).collect(), lost))
 }
 

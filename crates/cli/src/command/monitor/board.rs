@@ -34,6 +34,8 @@ struct Newest {
     /// What the source has remarked, without repetitions, the newest last.
     remarks: Vec<Arc<str>>,
     samples: u64,
+    /// Whether the file that is played ended before its end.
+    is_damaged: bool,
 }
 
 impl Newest {
@@ -108,6 +110,11 @@ impl Board {
         self.lock().frames.values().cloned().collect()
     }
 
+    /// Whether the file that is played ended before its end.
+    pub(super) fn is_damaged(&self) -> bool {
+        self.lock().is_damaged
+    }
+
     pub(super) fn notice(&self) -> Option<Notice> {
         self.lock().notice.clone()
     }
@@ -163,7 +170,10 @@ impl Sink for BoardSink {
             }
             Item::Statistics(statistics) => newest.statistics = Some(Arc::clone(statistics)),
             Item::Notice(Notice::Remark { text }) => newest.remark(text),
-            Item::Notice(notice) => newest.notice = Some(notice.clone()),
+            Item::Notice(notice) => {
+                newest.is_damaged |= matches!(notice, Notice::Damaged { .. });
+                newest.notice = Some(notice.clone());
+            }
             _ => {}
         }
         Ok(())

@@ -149,7 +149,8 @@ pub(super) fn show(sources: Vec<Source>, view: View, count: Option<u64>, stop: &
 
 fn finish(session: Session, boards: &[Board], names: &Names, view: View) -> anyhow::Result<End> {
     let outcome = session.wait()?;
-    let mut lost = outcome.dropped;
+    let is_damaged = boards.iter().any(Board::is_damaged);
+    let mut lost = outcome.dropped + u64::from(is_damaged);
     for (id, board) in (0..=u16::MAX).map(SourceId).zip(boards) {
         let Some(last) = board.statistics() else { continue };
         lost += last.lost_here();

@@ -1,6 +1,6 @@
 //! `posewire record --remote`: takes that somebody else begins and ends.
 
-use super::{EVERY, LOOK_EVERY, MEGABYTE, QUIET, RECORDER, Rate, Shouts, say_silent};
+use super::{EVERY, LOOK_EVERY, MEGABYTE, QUIET, RECORDER, Rate, Shouts, say_silent, tell_failure};
 use crate::cli::Record;
 use crate::command::End;
 use crate::context::{self, Teller, end_progress, say, show_progress};
@@ -75,6 +75,9 @@ fn ended(take: &TakeProgress, json: bool) {
         _ = json::print(&json::RecordingRecord::new(&take.recorded, take.lasted, None));
     } else {
         say(render::recorded(&take.recorded, take.lasted));
+    }
+    if let Some(failure) = &take.recorded.failure {
+        tell_failure(failure);
     }
 }
 

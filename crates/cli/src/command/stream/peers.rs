@@ -2,6 +2,7 @@
 
 use crate::context::{end_progress, say};
 use crate::plain::{plural, printable};
+use posewire::endpoint::Endpoint;
 use posewire::sink::{ClientProgress, ClientState, LeftOut, Progress, TargetProgress};
 
 /// Who is known to be there, and what is known to be left out.
@@ -71,11 +72,16 @@ fn changes((before, now): (TargetProgress, &TargetProgress)) -> Vec<String> {
         change(known, client)
     });
     let mut lines: Vec<_> = clients.map(|change| format!("{}: {change}", now.endpoint)).collect();
-    if before.peers != now.peers && now.clients.is_empty() {
+    if before.peers != now.peers && now.clients.is_empty() && is_connected_to(&now.endpoint) {
         let peers = plural(now.peers as u64, "peer");
         lines.push(format!("{}: {peers} connected", now.endpoint));
     }
     lines
+}
+
+/// Whether peers come and go there. A UDP target that is removed by remote control is told of by that.
+fn is_connected_to(endpoint: &str) -> bool {
+    !matches!(endpoint.parse(), Ok(Endpoint::MxtpUdp(_)))
 }
 
 fn change(before: Option<&ClientProgress>, now: &ClientProgress) -> Option<String> {
@@ -151,6 +157,26 @@ mod tests {
         let before = |now| (known(&peers.known, now), now);
         let told: Vec<_> = progress.targets.iter().map(before).flat_map(changes).collect();
         assert_eq!(told, ["natnet://h: 10.0.0.2:5000 (ROS) connected, gets NatNet 3.0"]);
+    }
+
+    #[test]
+    fn peers_that_go_are_told_of_where_there_are_connections() {
+        let gone = |endpoint: &str| {
+            let now = TargetProgress {
+                endpoint: endpoint.to_owned(),
+                ..TargetProgress::default()
+            };
+            let before = TargetProgress {
+                peers: 1,
+                ..now.clone()
+            };
+            changes((before, &now))
+        };
+        assert!(gone("mxtp://10.0.0.5:9763").is_empty(), "nobody connects to it");
+        assert_eq!(
+            gone("mxtp+tcp://10.0.0.5:9763"),
+            ["mxtp+tcp://10.0.0.5:9763: 0 peers connected"]
+        );
     }
 
     #[test]

@@ -33,6 +33,9 @@ fn recording() -> Vec<u8> {
         };
         let source = SourceId(u16::from(is_natnet));
         writer.datagram(source, &Arc::new(datagram)).unwrap();
+        if number % 2 == 1 {
+            writer.flush().unwrap();
+        }
     }
     writer.finish().unwrap();
     std::fs::read(path).unwrap()
@@ -46,10 +49,10 @@ fn a_recording_gives_its_sources_also_when_it_was_cut_off() {
     assert_eq!(capture.damage(), None);
     let sources: Vec<_> = captured.iter().map(|one| one.source).collect();
     assert_eq!(sources, [0, 1, 0, 1, 0, 1]);
-    // Up to the middle of the last message's payload.
+    // Up to the middle of the last message's payload: of a chunk that is torn nothing can be relied on.
     let last = file.windows(16).rposition(|window| window == [5; 16]).unwrap();
     let (captured, capture) = read(&file[..last]);
-    assert_eq!(captured.len(), 5);
+    assert_eq!(captured.len(), 4);
     assert_eq!(capture.damage(), Some("the recording was cut off"));
 }
 

@@ -38,6 +38,28 @@ fn a_file_that_is_there_is_not_overwritten_unasked() {
 }
 
 #[test]
+fn a_capture_is_not_converted_onto_itself() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("take.pcapng");
+    write(&path, &[datagram(Wire::MxtpUdp, 1_000_000_000, mxtp(1, 100))]);
+    let links = folder.path().join("links");
+    std::fs::create_dir(&links).unwrap();
+    let second_name = links.join("take.pcapng");
+    std::fs::hard_link(&path, &second_name).unwrap();
+    for to in [path.clone(), second_name, links.join("../take.pcapng")] {
+        for overwrite in [false, true] {
+            let options = ConvertOptions {
+                overwrite,
+                ..ConvertOptions::default()
+            };
+            let refused = convert(&path, &to, &options, &Stop::new());
+            assert_eq!(refused, Err(Error::OntoItself { path: to.clone() }));
+        }
+    }
+    assert_eq!(read_file(&path).len(), 1);
+}
+
+#[test]
 fn a_stream_over_tcp_comes_back_with_its_times() {
     let folder = tempfile::tempdir().unwrap();
     let sent: Vec<_> = (0..20)

@@ -11,7 +11,7 @@ mod sockets;
 mod traffic;
 
 pub(super) use interfaces::addresses;
-pub(super) use ports::taken;
+pub(super) use ports::{holder, taken};
 pub(super) use traffic::Traffic;
 
 use super::Finding;

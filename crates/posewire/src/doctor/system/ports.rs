@@ -43,15 +43,20 @@ fn of_listener(socket: &SocketLine, owner: Option<&Process>) -> Finding {
 
 /// The finding of a port that could not be opened, as another program has it.
 pub(in crate::doctor) fn taken(endpoint: &Endpoint, error: &Error) -> Finding {
-    let sockets = sockets().unwrap_or_default();
-    let finding = |what: String| Finding::new(Check::PortTaken, what).at(endpoint);
-    let in_the_way = sockets.iter().find(|socket| is_in_the_way(socket, endpoint));
-    let Some(socket) = in_the_way else {
-        return finding(format!("{}.", capitalised(&error.to_string())));
+    let what = match holder(endpoint) {
+        Some(holder) => format!("{holder} already."),
+        None => format!("{}.", capitalised(&error.to_string())),
     };
+    Finding::new(Check::PortTaken, what).at(endpoint)
+}
+
+/// Who has a port, and where: `The program mvn (process 4242) listens at udp 0.0.0.0:9763`; `None` where the system does not tell.
+pub(in crate::doctor) fn holder(endpoint: &Endpoint) -> Option<String> {
+    let sockets = sockets()?;
+    let socket = sockets.iter().find(|socket| is_in_the_way(socket, endpoint))?;
     let owners = processes::by_socket();
     let who = named(socket, owners.get(&socket.inode));
-    finding(format!("{who} listens at {} already.", place(socket)))
+    Some(format!("{who} listens at {}", place(socket)))
 }
 
 fn is_in_the_way(socket: &SocketLine, endpoint: &Endpoint) -> bool {

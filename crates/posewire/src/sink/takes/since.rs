@@ -10,7 +10,9 @@ pub(super) fn since(now: &Statistics, before: Option<&Statistics>) -> Statistics
         (&mut since.datagrams, before.datagrams),
         (&mut since.bytes, before.bytes),
         (&mut since.malformed, before.malformed),
+        (&mut since.skipped_bytes, before.skipped_bytes),
         (&mut since.kernel_dropped, before.kernel_dropped),
+        (&mut since.characters_refused, before.characters_refused),
     ] {
         *number = number.saturating_sub(old);
     }
@@ -38,6 +40,9 @@ fn subtract(now: &mut StreamStatistics, before: &StreamStatistics) {
         (&mut now.missing, before.missing),
         (&mut now.duplicate, before.duplicate),
         (&mut now.late, before.late),
+        (&mut now.reset, before.reset),
+        (&mut now.rewound, before.rewound),
+        (&mut now.jumped, before.jumped),
         (&mut now.malformed, before.malformed),
         (&mut now.incomplete, before.incomplete),
     ] {

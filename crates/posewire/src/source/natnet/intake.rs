@@ -1,5 +1,7 @@
 //! From datagrams to items.
 
+mod remarks;
+
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -13,7 +15,7 @@ use std::net::SocketAddr;
 use super::advice;
 use super::naming::{Arrived, Naming};
 use super::senders::Senders;
-use super::silence::{REMARK_AFTER, Silence};
+use super::silence::Silence;
 use super::sockets::{Port, Sockets};
 use crate::endpoint::NatNetAddress;
 use crate::net::Received;
@@ -22,6 +24,7 @@ use crate::source::report::Reports;
 use crate::source::timeline::Timeline;
 use crate::stats::{Link, NatNetTally};
 use crate::{Datagram, Error, Item, Notice};
+use remarks::Told;
 
 /// Drives the client, counts what it tells, and hands it on.
 pub(in crate::source) struct Intake<'a> {
@@ -43,13 +46,7 @@ pub(in crate::source) struct Intake<'a> {
     silence: Silence,
     left_out: u64,
     begun: Instant,
-    /// What was last said of a server that has never answered.
-    of_no_answer: Option<String>,
-    /// What was last said of the version that the server sends.
-    of_version: Option<String>,
-    /// What was last said of what the server describes.
-    of_model: Option<String>,
-    told_of_sets: bool,
+    told: Told,
     reports: Reports,
     outlet: &'a mut Outlet,
 }
@@ -83,10 +80,7 @@ impl<'a> Intake<'a> {
             silence: Silence::default(),
             left_out: 0,
             begun: Instant::now(),
-            of_no_answer: None,
-            of_version: None,
-            of_model: None,
-            told_of_sets: false,
+            told: Told::default(),
             reports: Reports::new(),
             outlet,
             address,
@@ -273,11 +267,7 @@ impl<'a> Intake<'a> {
         let subjects = self.naming.all();
         self.tally.model(model, quirks, &subjects);
         self.announce_all();
-        let text = advice::of_model(model).filter(|text| self.of_model.as_ref() != Some(text));
-        if let Some(text) = text {
-            self.of_model = Some(text.clone());
-            self.notice(Notice::Remark { text });
-        }
+        self.remark_on_model(model);
     }
 
     fn rate(&mut self, answer: &Answer) {
@@ -333,14 +323,6 @@ impl<'a> Intake<'a> {
         self.naming.reuse(samples);
     }
 
-    /// Says once that there is nothing to show, and to count, of frames with `only_sets` in them.
-    fn remark_on_sets(&mut self, only_sets: bool) {
-        if only_sets && !std::mem::replace(&mut self.told_of_sets, true) {
-            let text = advice::of_marker_sets();
-            self.notice(Notice::Remark { text });
-        }
-    }
-
     /// Bones that no description has, or too many subjects.
     fn look_for_left_out(&mut self) {
         let left_out = self.naming.subjects.left_out();
@@ -352,42 +334,6 @@ impl<'a> Intake<'a> {
             self.settle(self.time.now());
         }
         self.left_out = left_out;
-    }
-
-    fn remark_on_silence(&mut self, sockets: &Sockets) {
-        if !self.silence.is_to_be_told() {
-            return;
-        }
-        let text = self.silence.text(sockets);
-        self.notice(Notice::Remark { text });
-    }
-
-    /// Says once each what a server is like that has never answered.
-    fn remark_on_no_answer(&mut self) {
-        if !self.tally.is_nameless() || self.begun.elapsed() < REMARK_AFTER {
-            return;
-        }
-        let counts = self.client.counts();
-        let text = match (self.client.version(), counts.early, counts.received) {
-            (None, 1.., _) => advice::of_unread_frames(),
-            (_, 0, 0) => advice::of_nobody(self.server),
-            _ => return,
-        };
-        if self.of_no_answer.as_ref() != Some(&text) {
-            self.of_no_answer = Some(text.clone());
-            self.notice(Notice::Remark { text });
-        }
-    }
-
-    /// Says once that another version comes than was asked for, as soon as that is settled.
-    fn remark_on_version(&mut self) {
-        let is_settled = self.client.server_info().is_some() && self.silence.answers_for(SETTLED_AFTER);
-        let sent = self.client.version().filter(|_| is_settled);
-        let text = sent.and_then(|sent| advice::of_version(&self.address, sent));
-        if let Some(text) = text.filter(|text| self.of_version.as_ref() != Some(text)) {
-            self.of_version = Some(text.clone());
-            self.notice(Notice::Remark { text });
-        }
     }
 
     fn report(&mut self, sockets: Option<&Sockets>, ended: bool) {
@@ -425,5 +371,3 @@ const FRAME_RATE: &str = "FrameRate";
 /// Longer than any capture, and short enough to be added up.
 const FOR_EVER: Duration = Duration::from_hours(24 * 365 * 10);
 const LISTEN_AFTER: Duration = Duration::from_secs(1);
-/// How long a server may take to grant a version.
-const SETTLED_AFTER: Duration = Duration::from_secs(1);
