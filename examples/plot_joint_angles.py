@@ -1,6 +1,6 @@
 """Plots the knees and the hips of a take over time; each part is a cell of a notebook.
 
-    python plot_joint_angles.py walk.mvnx knees.png
+python plot_joint_angles.py walk.mvnx knees.png
 """
 
 # %%

@@ -39,7 +39,9 @@ def main(url="synthetic:walk", seconds=float("inf")):
                 print("hold still: no pose", flush=True)
             else:
                 # Here the robot is told; a stale pose is the moment to slow down.
-                print(f"{frame.sample:6} {frame.age * 1000:5.1f} ms {frame.state:5} elbow {np.degrees(elbow(frame)):6.1f} deg")
+                print(
+                    f"{frame.sample:6} {frame.age * 1000:5.1f} ms {frame.state:5} elbow {np.degrees(elbow(frame)):6.1f} deg"
+                )
             due = max(due + 1 / RATE, time.monotonic() - 1)
             time.sleep(max(0, due - time.monotonic()))
 

@@ -109,5 +109,8 @@ fn start(urls: &[String], path: &std::path::Path, options: RecordOptions) -> pos
 impl Drop for Recorder {
     fn drop(&mut self) {
         self.stop.stop();
+        let session = self.session.get_mut().unwrap_or_else(PoisonError::into_inner).take();
+        // So that the file is complete when Python ends; the threads need nothing of Python, and there is nobody to be told.
+        let _ = session.map(Session::wait);
     }
 }

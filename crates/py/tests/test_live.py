@@ -2,6 +2,7 @@
 
 import asyncio
 import os
+import signal
 import subprocess
 import sys
 import threading
@@ -155,7 +156,9 @@ def test_what_is_not_tracked_is_nan(looped):
 
 def test_wrong_arguments_are_named(looped):
     stream, streamer = looped
-    with pytest.raises(posewire.UsageError, match=r"expected an array of \(23, 3\) as position, found one of \(22, 3\)"):
+    with pytest.raises(
+        posewire.UsageError, match=r"expected an array of \(23, 3\) as position, found one of \(22, 3\)"
+    ):
         streamer.send(np.zeros((22, 3)), np.zeros((23, 4)))
     with pytest.raises(posewire.UsageError, match="there is no section"):
         streamer.send(np.zeros((23, 3)), np.zeros((23, 4)), speed=np.zeros((23, 3)))
@@ -178,6 +181,34 @@ def test_statistics_are_those_of_the_command_line(looped, walk):
     by_kind = {record["kind"]: record for record in stream.statistics()}
     assert by_kind["receiver"]["malformed"] == 0
     assert by_kind["statistics"]["name"] == "Ada" and "missing" in by_kind["statistics"]
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="needs a timer that signals")
+@pytest.mark.parametrize(
+    "wait", [next, lambda stream: stream.next(timeout=60), lambda stream: stream.latest(timeout=60)]
+)
+def test_a_signal_ends_waiting(wait):
+    def interrupt(number, frame):
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGALRM, interrupt)
+    try:
+        with posewire.listen("mxtp://127.0.0.1:0") as stream:
+            signal.setitimer(signal.ITIMER_REAL, 0.05)
+            with pytest.raises(KeyboardInterrupt):
+                wait(stream)
+    finally:
+        signal.signal(signal.SIGALRM, before)
+
+
+def test_other_threads_run_while_one_waits(walk, looped):
+    stream, streamer = looped
+    taken = []
+    thread = threading.Thread(target=lambda: taken.append(stream.next(timeout=60)))
+    thread.start()
+    send(streamer, walk, 2)
+    thread.join(timeout=60)
+    assert taken[0].sample == 0
 
 
 def test_many_streams_leave_nothing_behind():
@@ -209,5 +240,7 @@ def test_many_streams_leave_nothing_behind():
 )
 def test_a_program_ends_with_everything_open(program, tmp_path):
     program = f"import posewire, sys, threading\n{program}\n"
-    ended = subprocess.run([sys.executable, "-c", program, str(tmp_path / "take.mcap")], timeout=60, capture_output=True)
+    ended = subprocess.run(
+        [sys.executable, "-c", program, str(tmp_path / "take.mcap")], timeout=60, capture_output=True
+    )
     assert (ended.returncode, ended.stderr) == (0, b"")

@@ -42,7 +42,9 @@ def test_an_interrupt_ends_the_command():
 
 
 def test_importing_takes_numpy_alone():
-    loaded = run("-c", "import sys, numpy; before = set(sys.modules); import posewire; print(*set(sys.modules) - before)")
+    loaded = run(
+        "-c", "import sys, numpy; before = set(sys.modules); import posewire; print(*set(sys.modules) - before)"
+    )
     ours = {name.split(".")[0] for name in loaded.stdout.split()}
     assert ours <= {"posewire", "__future__"}, ours
 

@@ -5,6 +5,7 @@ import pathlib
 import signal
 import subprocess
 import sys
+import threading
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
@@ -122,7 +123,10 @@ def test_writing_cuts_turns_and_resamples(walk, tmp_path):
 def test_a_recording_gives_the_take_that_was_sent(walk, tmp_path):
     path = tmp_path / "take.mcap"
     with posewire.Recorder("mxtp://127.0.0.1:0", path=path) as recorder:
-        with posewire.listen("synthetic:walk") as pace, posewire.streamer(*recorder.urls, names=["Ada", "Bob"]) as streamer:
+        with (
+            posewire.listen("synthetic:walk") as pace,
+            posewire.streamer(*recorder.urls, names=["Ada", "Bob"]) as streamer,
+        ):
             for frame, _ in zip(pace, range(60)):
                 streamer.send(frame.position, frame.orientation)
                 streamer.send(frame.position, frame.orientation, subject=1)
@@ -150,6 +154,20 @@ def test_an_interrupt_ends_reading(tmp_path):
 
     with pytest.raises(KeyboardInterrupt):
         posewire.read("synthetic:walk", duration=3600, progress=interrupt)
+
+
+def test_other_threads_run_while_one_reads():
+    done = threading.Event()
+    turns = 0
+
+    def read():
+        posewire.read("synthetic:walk", duration=20)
+        done.set()
+
+    threading.Thread(target=read).start()
+    while not done.is_set():
+        turns += 1
+    assert turns > 1000, "a reader that keeps the interpreter lets nobody else have a turn"
 
 
 @pytest.mark.parametrize(
@@ -182,4 +200,11 @@ def test_tables_are_arrow(walk):
     np.testing.assert_array_equal(frame["position_Pelvis_x"].to_numpy(), walk.position[:, 0, 0])
     np.testing.assert_array_equal(frame["orientation_Head_w"].to_numpy(), walk.orientation[:, 6, 0])
     arrow = pyarrow.table(walk.to_arrow(["center_of_mass"]))
-    assert arrow.column_names == ["subject", "sample", "time", "center_of_mass_x", "center_of_mass_y", "center_of_mass_z"]
+    assert arrow.column_names == [
+        "subject",
+        "sample",
+        "time",
+        "center_of_mass_x",
+        "center_of_mass_y",
+        "center_of_mass_z",
+    ]
