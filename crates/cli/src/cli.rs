@@ -25,6 +25,7 @@ pub(crate) use monitor::Monitor;
 pub(crate) use record::Record;
 pub(crate) use replay::Replay;
 pub(crate) use stream::{Playback, Revision, Stream};
+pub(crate) use value::Format;
 
 use clap::{Parser, Subcommand};
 

@@ -7,7 +7,7 @@ mod server;
 
 pub(crate) use capture::{capture, unread};
 pub(crate) use doctor::print_findings;
-pub(crate) use recording::{losses, recorded, recording, recording_line};
+pub(crate) use recording::{LaterFile, losses, moved, recorded, recording, recording_line, silent, two_senders};
 pub(crate) use server::{delivery, kind, model, unknown_latencies};
 
 use crate::plain::{cut, plural, printable};
@@ -61,7 +61,6 @@ pub(crate) fn stream_summary(progress: &Progress, unsent: u64) -> String {
     }
     for target in &progress.targets {
         text += &target_line(target);
-        target.clients.iter().for_each(|client| client_line(&mut text, client));
     }
     if let Some(faults) = &progress.faults {
         _ = write!(text, "\n{}", made(faults));
@@ -69,7 +68,7 @@ pub(crate) fn stream_summary(progress: &Progress, unsent: u64) -> String {
     text
 }
 
-/// What became of what was sent to a target, on a line that begins here.
+/// What became of what was sent to a target, on a line that begins here, and on one for each NatNet client.
 pub(crate) fn target_line(target: &TargetProgress) -> String {
     let mut text = format!("\n  {}: {} datagrams", target.endpoint, target.datagrams);
     for (count, what) in [
@@ -81,6 +80,7 @@ pub(crate) fn target_line(target: &TargetProgress) -> String {
             _ = write!(text, ", {count} {what}");
         }
     }
+    target.clients.iter().for_each(|client| client_line(&mut text, client));
     text
 }
 

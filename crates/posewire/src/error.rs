@@ -167,6 +167,26 @@ pub enum Error {
         /// The sources that there are, each its number and endpoint.
         found: Vec<String>,
     },
+    /// A target of a protocol of which a capture has nothing to send again.
+    #[error("{}: expected {expected} for {endpoint}, found {}", path.display(), found.join(", "))]
+    NothingForTarget {
+        /// The file.
+        path: PathBuf,
+        /// The target.
+        endpoint: String,
+        /// What it takes.
+        expected: &'static str,
+        /// The sources that there are, each its number and endpoint.
+        found: Vec<String>,
+    },
+    /// A part of a capture in which nothing came.
+    #[error("{}: expected datagrams in that time, found none: it lasts {:.3} s", path.display(), lasts.as_secs_f64())]
+    NothingInTime {
+        /// The file.
+        path: PathBuf,
+        /// From its first datagram to its last.
+        lasts: Duration,
+    },
     /// A recording that was split, of which a file is not there.
     #[error("{}: part {part} of the recording is missing, expected before {}", path.display(), next.display())]
     MissingPart {
@@ -422,6 +442,8 @@ impl Error {
                 | Self::Character { .. }
                 | Self::Speed { .. }
                 | Self::CapturedSources { .. }
+                | Self::NothingForTarget { .. }
+                | Self::NothingInTime { .. }
                 | Self::CaptureRate { .. }
                 | Self::Faults { .. }
                 | Self::Format { .. }

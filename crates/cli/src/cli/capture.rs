@@ -2,6 +2,7 @@
 
 use super::explain::Protocol;
 use super::value::{moment, seconds};
+use crate::error::Usage;
 use clap::Args;
 use std::time::Duration;
 
@@ -41,6 +42,21 @@ pub(crate) struct Capture {
 }
 
 impl Capture {
+    /// Refuses a part that ends before it begins.
+    pub(crate) fn check(&self) -> Result<(), Usage> {
+        match (self.from, self.until) {
+            (Some(from), Some(until)) if until <= from => Err(Usage {
+                problem: format!(
+                    "--until {} is not behind --from {}",
+                    until.as_secs_f64(),
+                    from.as_secs_f64()
+                ),
+                help: "both are seconds after the first datagram of the file".to_owned(),
+            }),
+            _ => Ok(()),
+        }
+    }
+
     /// The protocol that was named.
     pub(crate) fn protocol(&self) -> Option<posewire::capture::Protocol> {
         self.forced.map(Into::into)

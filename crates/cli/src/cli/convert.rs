@@ -1,7 +1,8 @@
 //! The arguments of `posewire convert`.
 
-use super::value::{Only, only, rate, sample, seconds};
+use super::value::{Format, Only, format, only, rate, sample, seconds};
 use clap::{Args, ValueEnum};
+use posewire::capture;
 use posewire::endpoint::FileFormat;
 use posewire_motion::Section;
 use std::time::Duration;
@@ -20,6 +21,8 @@ Formats, and the axes and unit that their tools expect:
   trc, mot, sto   OpenSim: the same (Y up, mm), joint angles (degrees), orientations of segments
   npz             NumPy arrays: Z up, m, radians
   parquet         columns for DuckDB, Polars and Spark: Z up, m, degrees
+  mcap, pcapng, pcap
+                  of recordings and captures: every datagram as it came, for posewire and Wireshark
 
 What a format cannot hold is said. A file appears whole or not at all; Ctrl-C leaves none behind, but a second one, which
 waits for nothing, can leave a hidden .part file.
@@ -33,18 +36,19 @@ Examples:
   posewire convert take.mvnx take.npz --rate 100 --axes unity
   posewire convert \"synthetic:walk?fingers=true\" --duration 10 walk.glb
   posewire convert mxtp://0.0.0.0 live.mvnx               until Ctrl-C, a file for each subject
-  posewire convert take.mcap take.npz --only 0            of a recording, what its first source sent"
+  posewire convert take.mcap take.npz --only 0            of a recording, what its first source sent
+  posewire convert take.mcap take.pcapng                  for Wireshark"
 )]
 pub(crate) struct Convert {
-    /// IN: takes (.mvnx, .mvnx.gz), synthetic:walk with --duration, or a live stream. OUT: the file to write, its format told
-    /// by its name; or with --format a folder.
+    /// IN: takes (.mvnx, .mvnx.gz), recordings and captures (.mcap, .pcapng, .pcap), synthetic:walk with --duration, or a live
+    /// stream. OUT: the file to write, its format told by its name; or with --format a folder.
     // One list, because a parser of two would end the first where an option stands.
     #[arg(required = true, value_name = "PATH", num_args = 1..)]
     pub(crate) paths: Vec<String>,
 
     /// The format, where OUT does not say it.
-    #[arg(long, value_name = "FORMAT")]
-    pub(crate) format: Option<FileFormat>,
+    #[arg(long, value_name = "FORMAT", value_parser = format)]
+    pub(crate) format: Option<Format>,
 
     /// The first sample to write, by its number.
     #[arg(long, value_name = "SAMPLE", value_parser = sample, allow_negative_numbers = true)]
@@ -102,6 +106,22 @@ Of a recording or capture with several sources: use only this one, by its number
 --only 0,position is that source and that section.";
 
 impl Convert {
+    /// The format of takes that was named.
+    pub(crate) fn take_format(&self) -> Option<FileFormat> {
+        match self.format {
+            Some(Format::Take(format)) => Some(format),
+            _ => None,
+        }
+    }
+
+    /// The format of captures that was named.
+    pub(crate) fn capture_format(&self) -> Option<capture::Format> {
+        match self.format {
+            Some(Format::Capture(format)) => Some(format),
+            _ => None,
+        }
+    }
+
     /// The sections that were named.
     pub(crate) fn sections(&self) -> Vec<Section> {
         let section = |only: &Only| match only {

@@ -55,7 +55,7 @@ pub(crate) struct Inspect {
 /// What is done about a recording that was cut off.
 #[derive(Debug, Args)]
 pub(crate) struct Recovery {
-    /// Complete a recording that was cut off, by writing it anew with its index.
+    /// Complete a recording that was cut off, by writing it anew with its index; of a split one, all files behind it too.
     #[arg(long)]
     pub(crate) recover: bool,
 

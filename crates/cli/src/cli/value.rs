@@ -1,5 +1,7 @@
 //! What arguments have for values.
 
+use posewire::capture;
+use posewire::endpoint::FileFormat;
 use posewire::file::RATES;
 use posewire_motion::Section;
 use posewire_natnet::Version;
@@ -31,6 +33,32 @@ pub(super) fn rate(text: &str) -> Result<f64, String> {
         Ok(rate) if RATES.contains(&rate) => Ok(rate),
         _ => Err("expected a rate from 0.001 Hz and below 1,000,000 Hz, as in 120".to_owned()),
     }
+}
+
+/// What is written: takes, or captures with every datagram.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Format {
+    Take(FileFormat),
+    Capture(capture::Format),
+}
+
+impl Format {
+    /// How the names of files of each format end.
+    pub(crate) fn endings() -> impl Iterator<Item = &'static str> {
+        let takes = FileFormat::ALL.iter().map(|format| format.ending());
+        takes.chain(CAPTURES.map(capture::Format::ending))
+    }
+}
+
+/// The ending of a format's names, in either case.
+pub(super) fn format(text: &str) -> Result<Format, String> {
+    let is_named = |known: &capture::Format| text.eq_ignore_ascii_case(known.ending());
+    let of_captures = CAPTURES.into_iter().find(is_named).map(Format::Capture);
+    let format = of_captures.or_else(|| text.parse().ok().map(Format::Take));
+    format.ok_or_else(|| {
+        let endings: Vec<_> = Format::endings().collect();
+        format!("expected one of {}", endings.join(", "))
+    })
 }
 
 /// The name of a section, in either case.
@@ -66,3 +94,5 @@ pub(super) fn seconds(text: &str) -> Result<Duration, String> {
         _ => Err("expected more than 0 seconds".to_owned()),
     }
 }
+
+const CAPTURES: [capture::Format; 3] = [capture::Format::Mcap, capture::Format::PcapNg, capture::Format::Pcap];

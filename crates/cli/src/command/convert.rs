@@ -22,8 +22,8 @@ use std::path::Path;
 use std::time::Instant;
 
 pub(super) fn run(arguments: &Convert) -> anyhow::Result<End> {
-    if let Some((input, output)) = datagrams::paths(arguments) {
-        return datagrams::run(&input, &output, arguments);
+    if let Some(jobs) = datagrams::jobs(arguments)? {
+        return datagrams::run(&jobs, arguments);
     }
     let plan = Plan::of(arguments)?;
     let stops = context::stops_on_interrupt()?;
@@ -48,10 +48,15 @@ pub(super) fn run(arguments: &Convert) -> anyhow::Result<End> {
             }
         }
     }
+    end(failed, takes, lost)
+}
+
+/// How it ended when so many of all could not be converted, and so much was lost.
+fn end(failed: usize, all: usize, lost: u64) -> anyhow::Result<End> {
     match failed {
         0 => Ok(End::with_lost(lost)),
         _ => Err(Failure {
-            problem: format!("{failed} of {takes} could not be converted"),
+            problem: format!("{failed} of {all} could not be converted"),
             help: "the reason of each is above; the others are done".to_owned(),
         }
         .into()),

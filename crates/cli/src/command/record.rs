@@ -3,20 +3,25 @@
 mod takes;
 
 use super::End;
+use super::monitor::hint;
 use crate::cli::Record;
 use crate::context::{self, Teller, end_progress, say, show_progress, shows_progress};
 use crate::error::Usage;
 use crate::{json, render};
-use posewire::endpoint::Endpoint;
+use posewire::capture::Format;
+use posewire::endpoint::{Endpoint, FileFormat};
 use posewire::sink::{RecordOptions, RecordProgress, RecordSink};
 use posewire::source::PlaybackOptions;
+use posewire::stats::Statistics;
 use posewire::stop::Stop;
 use posewire::{Outcome, Session, Source};
+use std::collections::BTreeSet;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 pub(super) fn run(arguments: &Record) -> anyhow::Result<End> {
     let stop = context::stop_on_interrupt()?;
+    refuse(arguments)?;
     let sources = open(&arguments.urls)?;
     if let Some(address) = arguments.remote {
         return takes::run(arguments, address, sources, &stop);
@@ -33,7 +38,8 @@ pub(super) fn run(arguments: &Record) -> anyhow::Result<End> {
     }
     say(format_args!("  into {}", arguments.output.display()));
     context::stop_after(&stop, arguments.duration);
-    let session = Session::start(sources, vec![Box::new(sink), Box::new(Teller::default())], stop.clone());
+    let teller = Teller::default();
+    let session = Session::start(sources, vec![Box::new(sink), Box::new(teller.clone())], stop.clone());
     let begun = Instant::now();
     watch(&session, &progress, arguments.json, &stop)?;
     let outcome = session.wait();
@@ -44,7 +50,30 @@ pub(super) fn run(arguments: &Record) -> anyhow::Result<End> {
     } else {
         say(render::recorded(&progress, begun.elapsed()));
     }
-    end(&progress, outcome)
+    end(&progress, outcome, &teller)
+}
+
+/// Refuses to write a recording under a name that says something else.
+fn refuse(arguments: &Record) -> Result<(), Usage> {
+    let name = arguments.output.to_string_lossy().to_lowercase();
+    let takes = FileFormat::ALL.iter().map(|format| format.ending());
+    let captures = [Format::Pcap, Format::PcapNg].map(Format::ending);
+    let Some(other) = captures
+        .into_iter()
+        .chain(takes)
+        .find(|ending| name.ends_with(&format!(".{ending}")))
+    else {
+        return Ok(());
+    };
+    let output = arguments.output.with_extension("mcap");
+    Err(Usage {
+        problem: format!("record writes MCAP files, {} says {other}", arguments.output.display()),
+        help: format!(
+            "-o {0}; posewire convert {0} {1} makes the other of it",
+            output.display(),
+            arguments.output.display()
+        ),
+    })
 }
 
 /// Opens live sources; what is no live source is not recorded.
@@ -71,6 +100,7 @@ fn watch(session: &Session, progress: &Mutex<RecordProgress>, json: bool, stop: 
     let mut next = begun + EVERY;
     let mut line = (!json && !shows_progress()).then_some(begun + LINE_EVERY);
     let mut shouts = Shouts::default();
+    let mut warnings = Warnings::default();
     let mut quiet = Some(begun + QUIET);
     while session.is_running() && !stop.wait(LOOK_EVERY) {
         let mut progress = read(progress);
@@ -85,6 +115,7 @@ fn watch(session: &Session, progress: &Mutex<RecordProgress>, json: bool, stop: 
         }
         show_progress(shown);
         shouts.heed(now, &progress);
+        warnings.heed(&progress);
         if quiet.is_some_and(|quiet| now >= quiet) {
             quiet = None;
             end_progress();
@@ -117,23 +148,42 @@ impl Shouts {
     }
 }
 
-/// Says which sources nothing has come from.
-fn tell_of_silence(progress: &RecordProgress) {
-    for source in &progress.sources {
-        if source.datagrams == 0 && !matches!(source.endpoint, Endpoint::Synthetic(_)) {
-            say_silent(&source.endpoint);
+/// What is said once, as soon as it is so.
+#[derive(Default)]
+struct Warnings {
+    moved: bool,
+    two_senders: BTreeSet<String>,
+}
+
+impl Warnings {
+    fn heed(&mut self, progress: &RecordProgress) {
+        if progress.moved && !self.moved {
+            end_progress();
+            say(render::moved(progress));
+        }
+        self.moved = progress.moved;
+        for said in progress.sources.iter().flat_map(|source| &source.two_senders) {
+            if self.two_senders.len() < MOST_WARNINGS && self.two_senders.insert(said.clone()) {
+                end_progress();
+                say(render::two_senders(said));
+            }
         }
     }
 }
 
-fn say_silent(endpoint: &Endpoint) {
-    say(format_args!(
-        "nothing has come from {endpoint} yet: posewire monitor {endpoint} says what to check"
-    ));
+/// Says which sources nothing has come from.
+fn tell_of_silence(progress: &RecordProgress) {
+    for source in render::silent(progress) {
+        say_silent(&source.endpoint, source.statistics.as_deref());
+    }
+}
+
+fn say_silent(endpoint: &Endpoint, statistics: Option<&Statistics>) {
+    say(hint::of(endpoint, false, statistics));
 }
 
 /// A recording that could not be written any more has lost data; it did not fail before it began.
-fn end(progress: &RecordProgress, outcome: posewire::Result<Outcome>) -> anyhow::Result<End> {
+fn end(progress: &RecordProgress, outcome: posewire::Result<Outcome>, teller: &Teller) -> anyhow::Result<End> {
     match (outcome, &progress.failure) {
         (Err(error), Some(failure)) if error == *failure => {
             tell_failure(failure);
@@ -141,7 +191,8 @@ fn end(progress: &RecordProgress, outcome: posewire::Result<Outcome>) -> anyhow:
         }
         (outcome, _) => {
             outcome?;
-            Ok(End::with_lost(progress.lost()))
+            let is_incomplete = progress.moved || teller.is_damaged();
+            Ok(End::with_lost(progress.lost() + u64::from(is_incomplete)))
         }
     }
 }
@@ -150,9 +201,11 @@ fn end(progress: &RecordProgress, outcome: posewire::Result<Outcome>) -> anyhow:
 fn tell_failure(failure: &posewire::Error) {
     say(format_args!("error: {failure}"));
     let help = failure.help().unwrap_or_default();
-    say(format_args!(
-        "help: {help}; what was written can be read, posewire inspect --recover completes it"
-    ));
+    let left = match failure {
+        posewire::Error::Removed { .. } => "",
+        _ => "; what was written can be read, posewire inspect --recover completes it",
+    };
+    say(format_args!("help: {help}{left}"));
 }
 
 fn read(progress: &Mutex<RecordProgress>) -> RecordProgress {
@@ -164,6 +217,7 @@ struct Rate {
     since: Instant,
     count: u64,
     per_second: f64,
+    is_first: bool,
 }
 
 impl Rate {
@@ -172,14 +226,18 @@ impl Rate {
             since: now,
             count: 0,
             per_second: 0.0,
+            is_first: true,
         }
     }
 
     fn note(&mut self, now: Instant, count: u64) {
         let elapsed = now.saturating_duration_since(self.since);
+        // Until there is a whole second, what there is of the first.
+        if elapsed >= EVERY || self.is_first {
+            self.per_second = count.saturating_sub(self.count) as f64 / elapsed.as_secs_f64().max(1e-3);
+        }
         if elapsed >= EVERY {
-            self.per_second = (count - self.count) as f64 / elapsed.as_secs_f64();
-            (self.since, self.count) = (now, count);
+            (self.since, self.count, self.is_first) = (now, count, false);
         }
     }
 }
@@ -192,3 +250,5 @@ const LINE_EVERY: Duration = Duration::from_secs(10);
 /// The place of the recorder among the sinks.
 const RECORDER: usize = 0;
 const QUIET: Duration = Duration::from_secs(3);
+/// Warnings of one kind; a network in which there are more is known to be wrong.
+const MOST_WARNINGS: usize = 16;

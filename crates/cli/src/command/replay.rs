@@ -1,6 +1,7 @@
 //! `posewire replay`: the datagrams of a capture sent again.
 
 use super::End;
+use super::stream::peers::Peers;
 use crate::cli::Replay;
 use crate::context::{self, end_progress, say, show_progress};
 use crate::plain::{grouped, plural};
@@ -9,6 +10,7 @@ use posewire::capture::CapturedSource;
 use posewire::endpoint::Endpoint;
 use posewire::faults::FaultPlan;
 use posewire::replay::{self, ReplayOptions, Replayed};
+use posewire::sink::Progress;
 use posewire::stop::Stop;
 use std::fmt::Write;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -16,6 +18,7 @@ use std::thread;
 use std::time::Duration;
 
 pub(super) fn run(arguments: &Replay) -> anyhow::Result<End> {
+    arguments.again.capture.check()?;
     let stop = context::stop_on_interrupt()?;
     let targets = arguments.to.iter().map(|url| url.parse());
     let targets = targets.collect::<posewire::Result<Vec<Endpoint>>>()?;
@@ -88,12 +91,24 @@ fn run_and_show(replay: replay::Replay, stop: &Stop) -> posewire::Result<Replaye
     let progress = replay.progress();
     let at_work = stop.clone();
     let running = thread::spawn(move || replay.run(&at_work));
+    let mut peers = Peers::of(&targets(&progress));
     while !running.is_finished() {
+        peers.tell(&targets(&progress));
         show_progress(line(&progress));
         // Also when asked to stop it has something to bring to its end.
         thread::sleep(LOOK_EVERY);
     }
+    peers.tell(&targets(&progress));
     running.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+}
+
+/// The targets, as those of a stream are told of.
+fn targets(progress: &Mutex<Replayed>) -> Progress {
+    let progress = progress.lock().unwrap_or_else(PoisonError::into_inner);
+    Progress {
+        targets: progress.targets.clone(),
+        ..Progress::default()
+    }
 }
 
 fn line(progress: &Arc<Mutex<Replayed>>) -> String {

@@ -1,6 +1,6 @@
 //! `posewire stream`: a source to MXTP and NatNet targets.
 
-mod peers;
+pub(super) mod peers;
 pub(super) mod refuse;
 mod remote;
 mod sinks;

@@ -1,5 +1,6 @@
 //! How a recording is going, and what one holds.
 
+use crate::render::LaterFile;
 use posewire::json::rounded;
 use posewire::recording::{SenderSurvey, SourceSurvey, SubjectSurvey, Survey};
 use posewire::sink::{RecordProgress, RecordedSource, RecordedSubject};
@@ -20,18 +21,19 @@ pub(crate) struct RecordingRecord<'a> {
     rate_hz: f64,
     datagrams: u64,
     frames: u64,
-    sources: Vec<SourceRecord>,
+    sources: Vec<SourceRecord<'a>>,
     subjects: Vec<SubjectRecord<'a>>,
     dropped: u64,
     unwritten: u64,
     lost: u64,
     descriptions_left_out: u64,
+    moved: bool,
     failure: Option<String>,
     ended: bool,
 }
 
 #[derive(Serialize)]
-struct SourceRecord {
+struct SourceRecord<'a> {
     source: usize,
     endpoint: String,
     datagrams: u64,
@@ -39,6 +41,7 @@ struct SourceRecord {
     missing: u64,
     malformed: u64,
     kernel_dropped: u64,
+    two_senders: &'a [String],
 }
 
 #[derive(Serialize)]
@@ -68,13 +71,14 @@ impl<'a> RecordingRecord<'a> {
             unwritten: progress.unwritten,
             lost: progress.lost(),
             descriptions_left_out: progress.descriptions_left_out,
+            moved: progress.moved,
             failure: progress.failure.as_ref().map(ToString::to_string),
             ended: rate_hz.is_none(),
         }
     }
 }
 
-fn source((number, source): (usize, &RecordedSource)) -> SourceRecord {
+fn source((number, source): (usize, &RecordedSource)) -> SourceRecord<'_> {
     let statistics = source.statistics.as_deref();
     SourceRecord {
         source: number,
@@ -84,6 +88,7 @@ fn source((number, source): (usize, &RecordedSource)) -> SourceRecord {
         missing: source.missing(),
         malformed: statistics.map_or(0, |statistics| statistics.malformed),
         kernel_dropped: statistics.map_or(0, |statistics| statistics.kernel_dropped),
+        two_senders: &source.two_senders,
     }
 }
 
@@ -114,6 +119,15 @@ pub(crate) struct RecordingFileRecord<'a> {
     other: u64,
     lost: Option<u64>,
     continued: bool,
+    is_recorded: bool,
+    later: Vec<LaterFileRecord>,
+}
+
+#[derive(Serialize)]
+struct LaterFileRecord {
+    file: String,
+    complete: bool,
+    is_recorded: bool,
 }
 
 #[derive(Serialize)]
@@ -142,7 +156,7 @@ struct SubjectFileRecord<'a> {
 }
 
 impl<'a> RecordingFileRecord<'a> {
-    pub(crate) fn new(file: &Path, bytes: u64, survey: &'a Survey) -> Self {
+    pub(crate) fn new(file: &Path, bytes: u64, survey: &'a Survey, is_recorded: bool, later: &[LaterFile]) -> Self {
         Self {
             kind: "mcap",
             file: file.display().to_string(),
@@ -159,7 +173,17 @@ impl<'a> RecordingFileRecord<'a> {
             other: survey.other,
             lost: survey.lost,
             continued: survey.continued,
+            is_recorded,
+            later: later.iter().map(later_file).collect(),
         }
+    }
+}
+
+fn later_file(later: &LaterFile) -> LaterFileRecord {
+    LaterFileRecord {
+        file: later.path.display().to_string(),
+        complete: later.complete,
+        is_recorded: later.is_recorded,
     }
 }
 

@@ -1,11 +1,13 @@
 //! Recordings as people read them.
 
 use crate::plain::{grouped, plural, printable};
-use posewire::recording::{SenderSurvey, Survey};
-use posewire::sink::RecordProgress;
+use posewire::Error;
+use posewire::endpoint::Endpoint;
+use posewire::recording::{SenderSurvey, Survey, is_being_recorded};
+use posewire::sink::{RecordProgress, RecordedSource};
 use posewire_motion::Stamp;
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// How far a recording has come, on one line.
@@ -16,11 +18,27 @@ pub(crate) fn recording_line(progress: &RecordProgress, per_second: f64, elapsed
         plural(progress.datagrams(), "datagram"),
         megabytes(progress.bytes)
     );
-    match progress.lost() {
-        0 => {}
-        lost => _ = write!(line, ", {lost} LOST"),
+    let missing: u64 = progress.sources.iter().map(RecordedSource::missing).sum();
+    if missing > 0 {
+        _ = write!(line, ", {} missing", grouped(missing));
+    }
+    if progress.lost() > 0 {
+        _ = write!(line, ", {} LOST", grouped(progress.lost()));
+    }
+    let silent: Vec<_> = silent(progress).collect();
+    match (silent.as_slice(), progress.sources.len()) {
+        ([], _) => {}
+        ([source], _) => _ = write!(line, ", nothing from {}", source.endpoint),
+        (several, all) => _ = write!(line, ", nothing from {} of {all} sources", several.len()),
     }
     line
+}
+
+/// The sources from which nothing has come.
+pub(crate) fn silent(progress: &RecordProgress) -> impl Iterator<Item = &RecordedSource> {
+    let sends_datagrams = |source: &&RecordedSource| !matches!(source.endpoint, Endpoint::Synthetic(_));
+    let sources = progress.sources.iter().filter(sends_datagrams);
+    sources.filter(|source| source.last.is_none())
 }
 
 /// What was lost on this machine, and why.
@@ -54,7 +72,14 @@ pub(crate) fn recorded(progress: &RecordProgress, elapsed: Duration) -> String {
     );
     for source in &progress.sources {
         let count = plural(source.datagrams, "datagram");
-        _ = write!(text, "\n  {}: {count}, {} missing", source.endpoint, source.missing());
+        let missing = grouped(source.missing());
+        _ = write!(text, "\n  {}: {count}, {missing} missing", source.endpoint);
+    }
+    for source in silent(progress) {
+        _ = write!(text, "\nNOTHING CAME from {}", source.endpoint);
+    }
+    for said in progress.sources.iter().flat_map(|source| &source.two_senders) {
+        _ = write!(text, "\n{}", two_senders(said));
     }
     for subject in &progress.subjects {
         let count = plural(subject.frames, "sample");
@@ -74,12 +99,52 @@ pub(crate) fn recorded(progress: &RecordProgress, elapsed: Duration) -> String {
         1 => String::new(),
         files => format!(", the last of {files} files"),
     };
-    _ = write!(text, "\n{}{files}", progress.file.display());
+    let file = progress.file.display();
+    match progress.failure {
+        Some(Error::Removed { .. }) => _ = write!(text, "\n{file} is gone{files}"),
+        _ if progress.moved => _ = write!(text, "\n{}", moved(progress)),
+        _ => _ = write!(text, "\n{file}{files}"),
+    }
     text
 }
 
-/// What a recording holds.
-pub(crate) fn recording(file: &Path, bytes: u64, survey: &Survey) -> String {
+/// What is said when somebody has moved the file that is written.
+pub(crate) fn moved(progress: &RecordProgress) -> String {
+    let file = progress.file.display();
+    format!("{file} was MOVED while it was recorded: the recording is in it where it is now")
+}
+
+/// What is said of several who send the same.
+pub(crate) fn two_senders(said: &str) -> String {
+    format!(
+        "TWO SENDERS: {} The datagrams of both are recorded, the poses jump between them.",
+        printable(said)
+    )
+}
+
+/// A file of a split recording that is not the first.
+pub(crate) struct LaterFile {
+    pub(crate) path: PathBuf,
+    pub(crate) complete: bool,
+    pub(crate) is_recorded: bool,
+    /// Whether it says that another follows it.
+    continued: bool,
+}
+
+impl LaterFile {
+    pub(crate) fn of(path: &Path) -> posewire::Result<Self> {
+        let survey = Survey::of(path)?;
+        Ok(Self {
+            path: path.to_owned(),
+            complete: survey.complete,
+            is_recorded: is_being_recorded(path),
+            continued: survey.continued,
+        })
+    }
+}
+
+/// What a recording holds: of one that was split, what its first file does.
+pub(crate) fn recording(file: &Path, bytes: u64, survey: &Survey, is_recorded: bool, later: &[LaterFile]) -> String {
     let mut text = format!("{}\n", file.display());
     row(
         &mut text,
@@ -95,14 +160,21 @@ pub(crate) fn recording(file: &Path, bytes: u64, survey: &Survey) -> String {
         row(&mut text, "part", &format!("{part}{goes_on}"));
     }
     row(&mut text, "lasts", &format!("{:.3} s", seconds(survey.span)));
-    let complete = if survey.complete {
-        "yes"
-    } else {
-        "no, it was cut off: posewire inspect --recover completes it"
-    };
-    row(&mut text, "complete", complete);
-    if let Some(damage) = survey.damage.as_deref().filter(|_| !survey.complete) {
-        row(&mut text, "ends with", &printable(damage));
+    row(&mut text, "complete", completeness(survey.complete, is_recorded));
+    if let Some(damage) = survey.damage.as_deref().filter(|_| !survey.complete && !is_recorded) {
+        row(&mut text, "damage", &printable(damage));
+    }
+    for file in later {
+        let name = file.path.file_name().unwrap_or_default().to_string_lossy();
+        let complete = completeness(file.complete, file.is_recorded);
+        row(
+            &mut text,
+            "goes on in",
+            &format!("{}: complete: {complete}", printable(&name)),
+        );
+    }
+    if later.last().map_or(survey.continued, |last| last.continued) {
+        row(&mut text, "goes on in", "a file that is not here");
     }
     if let Some(lost) = survey.lost.filter(|lost| *lost > 0) {
         row(
@@ -132,6 +204,14 @@ pub(crate) fn recording(file: &Path, bytes: u64, survey: &Survey) -> String {
         row(&mut text, "other", &plural(survey.other, "message"));
     }
     text
+}
+
+fn completeness(complete: bool, is_recorded: bool) -> &'static str {
+    match (complete, is_recorded) {
+        (_, true) => "no, it is being recorded",
+        (true, _) => "yes",
+        (false, _) => "no: posewire inspect --recover writes what is whole of it",
+    }
 }
 
 /// A subject's name, or its number where it has none.

@@ -1,6 +1,7 @@
 //! Which arguments of `posewire convert` go together, and what those that do not are answered.
 
 use crate::convert::{assert_refused, convert, folder, names, with_take};
+use crate::replay::write_capture;
 use crate::takes::small_take;
 
 #[test]
@@ -153,4 +154,73 @@ fn what_stands_around_a_take_is_said_to_be_left_out() {
         assert!(said.contains(words), "{options:?}: {said}");
         assert!(missing.is_none_or(|missing| !said.contains(missing)), "{said}");
     }
+}
+
+/// A folder with two captures of one timecode each.
+fn with_captures() -> tempfile::TempDir {
+    let folder = with_take(2);
+    for name in ["one.pcapng", "two.pcapng"] {
+        write_capture(&folder.path().join(name), 1, 1);
+    }
+    folder
+}
+
+#[test]
+fn what_is_for_takes_is_refused_where_captures_become_captures() {
+    let folder = with_captures();
+    for option in [
+        "--from=1",
+        "--to=2",
+        "--rate=30",
+        "--axes=unity",
+        "--unit=cm",
+        "--salvage",
+        "--duration=1",
+        "--mvnx-version=4",
+        "--csv-sheets",
+        "--bvh-translations",
+        "--bvh-t-pose",
+        "--parquet-micro-units",
+    ] {
+        let words = format!("{} is for takes", option.split('=').next().unwrap());
+        assert_refused(&folder, &["one.pcapng", "x.mcap", option], 2, &words);
+    }
+    for (arguments, words) in [
+        (
+            &["take.mvnx", "x.mcap"][..],
+            "x.mcap is made of a recording or capture, found take.mvnx",
+        ),
+        (
+            &["one.pcapng", "two.pcapng", "x.mcap"],
+            "several captures go into a folder",
+        ),
+        (
+            &["take.mvnx", "new", "--format", "pcap"],
+            "--format pcap is for recordings and captures",
+        ),
+        (
+            &["one.pcapng", "x.mcap", "--format", "pcap"],
+            "--format pcap and x.mcap do not go together",
+        ),
+        (
+            &["one.pcapng", "one.pcapng", "--overwrite"],
+            "one.pcapng would be written over itself",
+        ),
+        (&["one.pcapng", "--format", "mcap"], "has no file to be written to"),
+        (&["one.pcapng", "x.xls"], "npz .parquet .mcap .pcapng .pcap"),
+    ] {
+        assert_refused(&folder, arguments, 2, words);
+    }
+}
+
+#[test]
+fn captures_become_captures_in_a_folder_with_a_format() {
+    let folder = with_captures();
+    let ended = convert(&folder, &["one.pcapng", "two.pcapng", "new", "--format", "MCAP"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    assert_eq!(names(&folder.path().join("new")), ["one.mcap", "two.mcap"]);
+    assert!(ended.err.contains("without poses"), "{}", ended.err);
+    let ended = convert(&folder, &["one.pcapng", "one.pcap", "--format", "pcap"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    assert!(!ended.err.contains("without poses"), "{}", ended.err);
 }

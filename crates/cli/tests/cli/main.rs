@@ -15,6 +15,8 @@ mod natnet_monitor;
 mod page;
 mod program;
 mod record;
+#[cfg(unix)]
+mod recording_mishaps;
 mod refusals;
 mod remote;
 mod replay;

@@ -12,21 +12,21 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 /// `posewire record`, recording.
-struct Recorder {
-    port: u16,
-    child: Child,
+pub(crate) struct Recorder {
+    pub(crate) port: u16,
+    pub(crate) child: Child,
     err: BufReader<ChildStderr>,
 }
 
 impl Recorder {
     /// Records whatever comes to a port of its own.
-    fn start(folder: &Path, arguments: &[&str]) -> Self {
+    pub(crate) fn start(folder: &Path, arguments: &[&str]) -> Self {
         let mut command = Command::new(env!("CARGO_BIN_EXE_posewire"));
         command.args(["record", "mxtp://127.0.0.1:0"]).args(arguments);
         Self::run(folder, command)
     }
 
-    fn run(folder: &Path, mut command: Command) -> Self {
+    pub(crate) fn run(folder: &Path, mut command: Command) -> Self {
         let mut child = command
             .current_dir(folder)
             .stdin(Stdio::null())
@@ -46,7 +46,7 @@ impl Recorder {
         }
     }
 
-    fn end(mut self) -> Ended {
+    pub(crate) fn end(mut self) -> Ended {
         let (mut err, mut out) = (String::new(), String::new());
         self.child.stdout.take().unwrap().read_to_string(&mut out).unwrap();
         self.err.read_to_string(&mut err).unwrap();
@@ -59,14 +59,14 @@ impl Recorder {
 }
 
 #[cfg(unix)]
-fn interrupt(child: &Child) {
+pub(crate) fn interrupt(child: &Child) {
     let process = child.id().to_string();
     let sent = Command::new("kill").args(["-INT", &process]).status();
     assert!(sent.unwrap().success());
 }
 
 /// Sends numbers until something is true; gives when each was sent.
-fn send_until(port: u16, length: usize, mut enough: impl FnMut(usize) -> bool) -> Vec<Instant> {
+pub(crate) fn send_until(port: u16, length: usize, mut enough: impl FnMut(usize) -> bool) -> Vec<Instant> {
     let sender = UdpSocket::bind("127.0.0.1:0").unwrap();
     let begun = Instant::now();
     let mut sent = Vec::new();
@@ -146,6 +146,13 @@ fn lost_when_killed(folder: &Path, name: &str, life: Duration) -> Duration {
     killed.saturating_duration_since(first_lost)
 }
 
+fn grouped(number: u64) -> String {
+    match number {
+        0..1000 => number.to_string(),
+        _ => format!("{},{:03}", grouped(number / 1000), number % 1000),
+    }
+}
+
 const A_QUARTER: Duration = Duration::from_millis(250);
 
 /// A file size limit stands for a full disk: the system refuses to write beyond it.
@@ -171,7 +178,10 @@ fn a_full_disk_ends_the_recording_loudly_and_what_was_written_stays() {
     let seen = posewire(folder.path(), &["inspect", "take.mcap", "--recover", "--json"], b"");
     assert_eq!(seen.code, Some(0), "{}", seen.err);
     let object = objects(&seen.out, "mcap").remove(0);
-    assert!(object["sources"][0]["senders"][0]["datagrams"].as_u64().unwrap() > 50);
+    let found = object["sources"][0]["senders"][0]["datagrams"].as_u64().unwrap();
+    assert!(found > 50);
+    let said = format!("recorded {} datagrams", grouped(found));
+    assert!(ended.err.contains(&said), "{said}: {}", ended.err);
 }
 
 /// A pipe that nobody reads stands for a disk that is stuck.
@@ -237,6 +247,18 @@ fn what_cannot_be_recorded_is_refused() {
             1,
             "no/where.mcap",
             "help",
+        ),
+        (
+            &["record", "mxtp://127.0.0.1:0", "-o", "new.pcapng"],
+            2,
+            "record writes MCAP files",
+            "posewire convert new.mcap new.pcapng",
+        ),
+        (
+            &["record", "mxtp://127.0.0.1:0", "-o", "there.mcap", "--remote", "0"],
+            2,
+            "expected a folder for the takes, found there.mcap",
+            "each take is a file in it",
         ),
         (
             &["inspect", "there.mcap", "--recover"],

@@ -15,7 +15,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// A capture of timecodes of one sample each, in turn to so many addresses.
-fn write_capture(path: &Path, count: u32, receivers: u32) -> Vec<Vec<u8>> {
+pub(crate) fn write_capture(path: &Path, count: u32, receivers: u32) -> Vec<Vec<u8>> {
     let mut writer = PcapWriter::create(path, false).unwrap();
     let mut written = Vec::new();
     for number in 0..count {
@@ -369,4 +369,62 @@ fn a_capture_becomes_a_recording_and_a_capture_again_with_every_datagram() {
     }
     let refused = posewire(folder.path(), &["convert", "take.mcap", "again.pcapng"], b"");
     assert_eq!(refused.code, Some(2), "{}", refused.err);
+}
+
+#[test]
+fn what_no_target_takes_is_refused_in_the_words_that_were_typed() {
+    let folder = tempfile::tempdir().unwrap();
+    write_capture(&folder.path().join("take.pcapng"), 4, 1);
+    let frame = |number: u8| Datagram {
+        wire: Wire::NatNetData,
+        bytes: [&[7, 0, 4, 0][..], &[number, 0, 0, 0]].concat().into(),
+        ..timecode(number.into(), 1)
+    };
+    let mut writer = PcapWriter::create(&folder.path().join("motive.pcapng"), false).unwrap();
+    (0..4).for_each(|number| writer.write(&frame(number)).unwrap());
+    writer.finish().unwrap();
+    for (file, to, problem) in [
+        (
+            "take.pcapng",
+            "natnet://127.0.0.1:0?data-port=0",
+            "take.pcapng: expected NatNet for natnet://127.0.0.1:0?mode=unicast&data-port=0, found 0 mxtp://10.0.0.2:9763",
+        ),
+        (
+            "motive.pcapng",
+            "mxtp://127.0.0.1",
+            "motive.pcapng: expected MXTP for mxtp://127.0.0.1:9763, found 0 natnet://10.0.0.1",
+        ),
+    ] {
+        let ended = posewire(folder.path(), &["replay", file, "--to", to], b"");
+        assert_eq!(ended.code, Some(2), "{}", ended.err);
+        assert!(ended.err.contains(problem), "{}", ended.err);
+        let help = format!("help: posewire stream {file} --to ");
+        assert!(ended.err.contains(&help), "{}", ended.err);
+    }
+}
+
+#[test]
+fn a_part_in_which_nothing_came_is_answered_with_how_long_the_file_is() {
+    let folder = tempfile::tempdir().unwrap();
+    write_capture(&folder.path().join("take.pcapng"), 4, 1);
+    for verb in [
+        &["replay", "take.pcapng", "--to", "mxtp://127.0.0.1:9"][..],
+        &["monitor", "take.pcapng", "--json"],
+        &["stream", "take.pcapng", "--to", "mxtp://127.0.0.1:9", "--types", "25"],
+    ] {
+        for (part, problem) in [
+            (
+                ["--from", "3", "--until", "2"],
+                "error: --until 2 is not behind --from 3",
+            ),
+            (
+                ["--from", "100", "--speed", "1"],
+                "error: take.pcapng: expected datagrams in that time, found none: it lasts 0.012 s",
+            ),
+        ] {
+            let ended = posewire(folder.path(), &[verb, &part[..]].concat(), b"");
+            assert_eq!(ended.code, Some(2), "{}", ended.err);
+            assert!(ended.err.contains(problem), "{}", ended.err);
+        }
+    }
 }

@@ -1,10 +1,12 @@
 //! What a capture holds, from reading it once.
 
 use super::{Capture, CaptureOptions, Captured, Counts, Format, Protocol};
+use crate::endpoint::Endpoint;
 use crate::stop::Stop;
 use crate::{Error, Result, Wire};
 use posewire_motion::Stamp;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// What a capture holds.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -120,28 +122,55 @@ impl Survey {
         }
     }
 
-    /// The NatNet source that is meant, if only one can be.
-    pub(crate) fn natnet(&self, path: &Path, chosen: Option<u16>) -> Result<&CapturedSource> {
-        let is_meant = |source: &&CapturedSource| {
-            let is_chosen = chosen.is_none_or(|chosen| chosen == source.number);
-            is_chosen && source.protocol == Some(Protocol::NatNet)
-        };
-        let mut meant = self.heard().filter(is_meant);
-        match (meant.next(), meant.next()) {
-            (Some(source), None) => Ok(source),
-            _ => Err(self.not_one(path, Some("natnet"))),
+    /// The sources of a protocol, of the chosen one or of all, that are sent to a target.
+    ///
+    /// # Errors
+    /// [`Error::NothingForTarget`] when there is none.
+    pub(crate) fn for_target(
+        &self,
+        path: &Path,
+        chosen: Option<u16>,
+        protocol: Protocol,
+        target: &Endpoint,
+    ) -> Result<Vec<&CapturedSource>> {
+        let chosen: Vec<_> = self
+            .heard()
+            .filter(|source| chosen.is_none_or(|chosen| chosen == source.number))
+            .collect();
+        let of_protocol = chosen.iter().filter(|source| source.protocol == Some(protocol));
+        let sources: Vec<_> = of_protocol.copied().collect();
+        if !sources.is_empty() {
+            return Ok(sources);
         }
+        Err(Error::NothingForTarget {
+            path: path.to_owned(),
+            endpoint: target.to_string(),
+            expected: match protocol {
+                Protocol::Mxtp => "MXTP",
+                Protocol::NatNet => "NatNet",
+            },
+            found: chosen.into_iter().map(CapturedSource::label).collect(),
+        })
+    }
+
+    /// How long after the first datagram the last one came.
+    pub(crate) fn lasts(&self) -> Duration {
+        self.span().map_or(Duration::ZERO, |(first, last)| last.since(first))
     }
 
     fn not_one(&self, path: &Path, wanted: Option<&str>) -> Error {
         Error::CapturedSources {
             path: path.to_owned(),
             wanted: wanted.map(str::to_owned),
-            found: self
-                .heard()
-                .map(|source| format!("{} {}", source.number, source.name))
-                .collect(),
+            found: self.heard().map(CapturedSource::label).collect(),
         }
+    }
+}
+
+impl CapturedSource {
+    /// Its number and endpoint, of which either chooses it.
+    pub(crate) fn label(&self) -> String {
+        format!("{} {}", self.number, self.name)
     }
 }
 

@@ -32,6 +32,11 @@ impl Error {
                 Some("posewire explain FILE --protocol mxtp takes every datagram for MXTP".into())
             }
             Self::CapturedSources { .. } => Some("choose one by number or name, as in --only 0".into()),
+            Self::NothingForTarget { path, endpoint, .. } => Some(format!(
+                "posewire stream {} --to \"{endpoint}\" reads it and sends that, in datagrams of its own",
+                path.display()
+            )),
+            Self::NothingInTime { .. } => Some("--from and --until are seconds after its first datagram".into()),
             Self::MissingPart { .. } => Some(
                 "put it beside the others; a later part, or the first in a folder of its own, is read alone".into(),
             ),

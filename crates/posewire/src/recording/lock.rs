@@ -43,6 +43,13 @@ pub(super) fn own(file: &File, path: &Path) -> Result<()> {
     Ok(())
 }
 
+/// Opens a file so that no recorder begins to write it for as long as it is open; `None` when one writes it already, and where
+/// the system has no locks.
+pub(crate) fn read_locked(path: &Path) -> Option<File> {
+    let file = File::open(path).ok().filter(|_| cfg!(unix))?;
+    file.try_lock_shared().ok().map(|()| file)
+}
+
 /// What became of the name of a file that is open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Whereabouts {

@@ -25,7 +25,7 @@ pub use format::{
     CONTINUED, END, FROM, KIND, NAME, POSES, RAW, RECORDING, REPEATED, SOURCE, SOURCE_RECORD, SUBJECT, SUBJECT_RECORD,
     TO, WIRE,
 };
-pub(crate) use lock::Whereabouts;
+pub(crate) use lock::{Whereabouts, read_locked};
 pub use lock::is_being_recorded;
 pub use recover::{Recovered, recover};
 pub use survey::{SenderSurvey, SourceSurvey, SubjectSurvey, Survey};

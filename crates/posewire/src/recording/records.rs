@@ -98,8 +98,12 @@ impl Records {
                 path: self.path.clone(),
             });
         }
-        self.damage = Some(error.to_string());
         self.cut_off = matches!(error, McapError::UnexpectedEof);
+        self.damage = Some(if self.cut_off {
+            "its end is lacking".to_owned()
+        } else {
+            error.to_string()
+        });
         Ok(false)
     }
 }

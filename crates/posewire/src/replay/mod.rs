@@ -126,7 +126,8 @@ impl Replay {
     /// Reads the capture once and opens the targets. A TCP target that connects is connected when this returns.
     ///
     /// # Errors
-    /// Those of [`Survey::of`] and [`Survey::choose`]; what keeps a target from being opened; [`Error::Speed`].
+    /// Those of [`Survey::of`] and [`Survey::choose`]; [`Error::NothingForTarget`] and what else keeps a target from being opened;
+    /// [`Error::Speed`].
     pub fn open(path: &Path, targets: &[Endpoint], options: &ReplayOptions) -> Result<Self> {
         Pacer::new(Instant::now(), options.speed, Stop::new())?;
         let reading = CaptureOptions {
@@ -192,7 +193,7 @@ impl Replay {
     /// Replays to the end, or until `stop` is set.
     ///
     /// # Errors
-    /// [`Error::NoDatagrams`] when nothing lies between the beginning and the end asked for, [`Error::Read`] when the file cannot be
+    /// [`Error::NothingInTime`] when nothing lies between the beginning and the end asked for, [`Error::Read`] when the file cannot be
     /// read on, [`Error::Socket`] when the very first datagram cannot be sent.
     pub fn run(mut self, stop: &Stop) -> Result<Replayed> {
         let mut pacer = Pacer::new(Instant::now(), self.speed, stop.clone())?;
@@ -203,9 +204,9 @@ impl Replay {
         self.summarise();
         played?;
         if self.replayed.datagrams + self.replayed.without_target + self.replayed.asked == 0 && !stop.is_stopped() {
-            return Err(Error::NoDatagrams {
+            return Err(Error::NothingInTime {
+                lasts: self.survey.lasts(),
                 path: self.path,
-                found: "none in that time".to_owned(),
             });
         }
         Ok(self.replayed)

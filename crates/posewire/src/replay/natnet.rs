@@ -4,14 +4,13 @@ use crate::capture::{CaptureOptions, CapturedSource, Opening};
 use crate::clock::Clock;
 use crate::endpoint::{Endpoint, NatNetAddress};
 use crate::faults::{FaultCounts, FaultPlan};
-use crate::net::Sent;
-use crate::sink::{FaultyFrames, NatNetPorts, TargetProgress};
+use crate::sink::{FaultyFrames, NatNetLedger, NatNetPorts, TargetProgress};
 use crate::stop::Stop;
 use crate::{Error, Result};
 use posewire_natnet::client::Mode;
 use posewire_natnet::command::ServerInfo;
 use posewire_natnet::model::Model;
-use posewire_natnet::server::{Delivery, Server, ServerOptions};
+use posewire_natnet::server::{Delivery, Event, Server, ServerOptions};
 use posewire_natnet::{Message, MessageId, Output, Packet, Socket, Transmit, Version};
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -30,12 +29,13 @@ pub(super) struct RawServer {
     opened: Instant,
     shared: Arc<Shared>,
     answering: Option<JoinHandle<()>>,
-    counts: TargetProgress,
 }
 
 struct Shared {
     ports: NatNetPorts,
     server: Mutex<Server>,
+    /// Taken after the server, where both are.
+    ledger: Mutex<NatNetLedger>,
     clock: Clock,
     ending: Stop,
 }
@@ -66,6 +66,7 @@ impl RawServer {
         let shared = Arc::new(Shared {
             ports,
             server: Mutex::new(server),
+            ledger: Mutex::default(),
             clock: Clock::new(),
             ending: Stop::new(),
         });
@@ -77,7 +78,6 @@ impl RawServer {
             opened: Instant::now(),
             shared,
             answering: Some(thread::spawn(move || answers.answer_all())),
-            counts: TargetProgress::default(),
         })
     }
 
@@ -136,15 +136,11 @@ impl RawServer {
     }
 
     fn transmit(&mut self, frame: &Transmit) {
-        match self.shared.ports.send(frame) {
-            Sent::Taken | Sent::Nobody => self.counts.datagrams += 1,
-            Sent::NoRoom => self.counts.congested += 1,
-            Sent::Refused => self.counts.failed += 1,
-        }
+        let sent = self.shared.ports.send(frame);
+        self.shared.ledger().count(frame.to, sent);
     }
 
     pub(super) fn finish(&mut self) {
-        self.counts.peers = self.shared.lock().clients().len();
         self.shared.ending.stop();
         self.shared.lock().close();
         self.shared.transmit();
@@ -156,15 +152,7 @@ impl RawServer {
     }
 
     pub(super) fn progress(&self) -> TargetProgress {
-        let peers = match self.answering {
-            Some(_) => self.shared.lock().clients().len(),
-            None => self.counts.peers,
-        };
-        TargetProgress {
-            endpoint: self.endpoint.clone(),
-            peers,
-            ..self.counts.clone()
-        }
+        self.shared.ledger().progress(&self.endpoint, self.is_group)
     }
 }
 
@@ -183,6 +171,10 @@ impl Drop for RawServer {
 impl Shared {
     fn lock(&self) -> MutexGuard<'_, Server> {
         self.server.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn ledger(&self) -> MutexGuard<'_, NatNetLedger> {
+        self.ledger.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// What goes to each who gets this frame.
@@ -224,10 +216,11 @@ impl Shared {
         }
     }
 
-    fn answer<E>(&self, output: Output<E>) {
-        if let Output::Transmit(transmit) = output {
+    fn answer(&self, output: Output<Event>) {
+        match output {
             // An answer that does not get through is asked for again.
-            let _ = self.ports.send(&transmit);
+            Output::Transmit(transmit) => drop(self.ports.send(&transmit)),
+            Output::Event(event) => self.ledger().note(event),
         }
     }
 }

@@ -2,11 +2,11 @@
 
 use super::Replayed;
 use super::natnet::{RawServer, is_frame};
-use crate::capture::{CaptureOptions, Protocol, Survey};
+use crate::capture::{CaptureOptions, CapturedSource, Protocol, Survey};
 use crate::endpoint::Endpoint;
 use crate::faults::{FaultCounts, FaultPlan, Faults};
 use crate::sink::{MxtpTarget, TargetProgress};
-use crate::{Datagram, Result};
+use crate::{Datagram, Error, Result};
 use posewire_mxtp::motion::Datagrams;
 use std::path::Path;
 use std::time::Duration;
@@ -34,11 +34,20 @@ impl Targets {
     ) -> Result<Self> {
         let open = |endpoint: &Endpoint| match endpoint {
             Endpoint::NatNet(address) => {
-                let source = survey.natnet(path, chosen)?;
+                let sources = survey.for_target(path, chosen, Protocol::NatNet, endpoint)?;
+                let [source] = sources[..] else {
+                    return Err(several(path, &sources));
+                };
                 let server = RawServer::open(path, options, source, address, faults)?;
                 Ok(Target::NatNet(Box::new(server)))
             }
-            endpoint => MxtpTarget::open_for_datagrams(endpoint).map(Target::Mxtp),
+            endpoint @ (Endpoint::MxtpUdp(_) | Endpoint::MxtpTcp(_)) => {
+                survey.for_target(path, chosen, Protocol::Mxtp, endpoint)?;
+                MxtpTarget::open_for_datagrams(endpoint).map(Target::Mxtp)
+            }
+            endpoint => Err(Error::NotATarget {
+                endpoint: endpoint.to_string(),
+            }),
         };
         Ok(Self {
             all: targets.iter().map(open).collect::<Result<_>>()?,
@@ -165,5 +174,14 @@ impl Targets {
             Target::NatNet(server) => server.progress(),
         };
         self.all.iter().map(progress).collect()
+    }
+}
+
+/// A NatNet server has the frames of one source.
+fn several(path: &Path, found: &[&CapturedSource]) -> Error {
+    Error::CapturedSources {
+        path: path.to_owned(),
+        wanted: None,
+        found: found.iter().map(|source| source.label()).collect(),
     }
 }

@@ -9,7 +9,7 @@ mod takes;
 
 pub(crate) use mxtp::Target as MxtpTarget;
 pub use mxtp::{Fit, MxtpSink, MxtpSinkOptions, MxtpTargets};
-pub(crate) use natnet::{FaultyFrames, Ports as NatNetPorts};
+pub(crate) use natnet::{FaultyFrames, Ledger as NatNetLedger, Ports as NatNetPorts};
 pub use natnet::{NatNetSink, NatNetSinkOptions};
 pub use progress::{ClientProgress, ClientState, LeftOut, Progress, TargetProgress};
 pub use record::{RecordOptions, RecordProgress, RecordSink, RecordedSource, RecordedSubject};

@@ -4,10 +4,12 @@ mod syncing;
 #[cfg(test)]
 mod tests;
 
+use crate::beside::is_same_file;
+use crate::capture::{Capture, CaptureOptions};
 use crate::doctor::Senders;
 use crate::endpoint::Endpoint;
 use crate::queue::Policy;
-use crate::recording::{Briefing, Whereabouts, Writer, WriterOptions};
+use crate::recording::{Briefing, Whereabouts, Writer, WriterOptions, read_locked};
 use crate::stats::Statistics;
 use crate::stop::Stop;
 use crate::{Error, Item, Result, Sink, SourceId, Wants};
@@ -58,6 +60,8 @@ pub struct RecordSink {
     /// What is in the files before the present one.
     finished: Counted,
     senders: BTreeMap<SourceId, Senders>,
+    /// The files that are recorded anew, which no file of the recording replaces.
+    read: Vec<std::fs::File>,
     progress: RecordProgress,
     shared: Arc<Mutex<RecordProgress>>,
     subjects: BTreeMap<(SourceId, u32), usize>,
@@ -158,8 +162,10 @@ impl RecordSink {
     /// Creates the file. `sources` are the endpoints of the session's sources, in its order; `stop` is the session's.
     ///
     /// # Errors
-    /// [`Error::Exists`] when the file is there and is not to be overwritten, [`Error::Write`] when it cannot be created.
+    /// [`Error::Exists`] when the file is there and is not to be overwritten, [`Error::OntoItself`] when a source reads it,
+    /// [`Error::BeingRecorded`] when another recorder writes it, [`Error::Write`] when it cannot be created.
     pub fn create(path: &Path, sources: &[Endpoint], options: RecordOptions, stop: Stop) -> Result<Self> {
+        let read = reserve(sources, path)?;
         let endpoints: Vec<_> = sources.iter().map(ToString::to_string).collect();
         let writer = Writer::create(path, &endpoints, options)?;
         let sources = sources.iter().map(|endpoint| RecordedSource {
@@ -186,6 +192,7 @@ impl RecordSink {
             flushed: Counted::default(),
             finished: Counted::default(),
             senders: BTreeMap::new(),
+            read,
             shared: Arc::new(Mutex::new(progress.clone())),
             progress,
             subjects: BTreeMap::new(),
@@ -402,8 +409,28 @@ impl std::fmt::Debug for RecordSink {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("RecordSink")
             .field("file", &self.progress.file)
+            .field("read", &self.read)
             .finish_non_exhaustive()
     }
+}
+
+/// Keeps the files that sources read from being written, for as long as they are open here.
+fn reserve(sources: &[Endpoint], path: &Path) -> Result<Vec<std::fs::File>> {
+    let mut read = Vec::new();
+    for source in sources {
+        let Endpoint::Capture { path: capture } = source else {
+            continue;
+        };
+        // What cannot be read the source says.
+        let capture = Capture::open(capture, &CaptureOptions::default());
+        for file in capture.iter().flat_map(Capture::files) {
+            if is_same_file(file, path) {
+                return Err(Error::OntoItself { path: path.to_owned() });
+            }
+            read.extend(read_locked(file));
+        }
+    }
+    Ok(read)
 }
 
 /// What of each source and subject is in the files.

@@ -213,7 +213,7 @@ impl Takes {
         let mut told = lock(&self.told);
         // Another may have begun meanwhile.
         told.running.take_if(|running| running.is(&take.running));
-        let is_incomplete = ended.recorded.failure.is_some();
+        let is_incomplete = ended.recorded.failure.is_some() || ended.recorded.moved;
         told.lost += ended.recorded.lost().max(is_incomplete.into());
         Some(ended)
     }

@@ -1,7 +1,7 @@
 //! What is converted, and to which files.
 
 use super::refuse;
-use crate::cli::{Axes, Convert, Unit};
+use crate::cli::{Axes, Convert, Format, Unit};
 use crate::error::Usage;
 use posewire::endpoint::{Endpoint, FileFormat, Walk};
 use posewire::file::{
@@ -50,7 +50,8 @@ impl Plan {
     pub(super) fn of(arguments: &Convert) -> anyhow::Result<Self> {
         let (inputs, output) = inputs_and_output(&arguments.paths)?;
         refuse::standard_streams(inputs, output)?;
-        let output = Output::of(inputs, output, arguments.format)?;
+        refuse::captures(inputs, output)?;
+        let output = Output::of(inputs, output, arguments.take_format())?;
         let sources = inputs.iter().map(|input| Ok((input, source(input, arguments)?)));
         let sources = sources.collect::<anyhow::Result<Vec<_>>>()?;
         let jobs: Vec<_> = sources
@@ -114,10 +115,7 @@ impl Job {
 fn inputs_and_output(paths: &[String]) -> Result<(&[String], &str), Usage> {
     match paths {
         [inputs @ .., output] if !inputs.is_empty() => Ok((inputs, output)),
-        _ => Err(Usage {
-            problem: format!("{} has no file to be written to", paths.concat()),
-            help: "name it behind the take, as in posewire convert take.mvnx take.bvh".to_owned(),
-        }),
+        _ => Err(refuse::no_output(&paths.concat())),
     }
 }
 
@@ -243,10 +241,7 @@ pub(super) fn distinct_names(recordings: &[Recording]) -> Vec<String> {
 fn format_of(output: &str) -> anyhow::Result<FileFormat> {
     FileFormat::of(output).map_err(|error| match error {
         posewire::Error::UnknownFormat { .. } => {
-            let endings: Vec<_> = FileFormat::ALL
-                .iter()
-                .map(|format| format!(".{}", format.ending()))
-                .collect();
+            let endings: Vec<_> = Format::endings().map(|ending| format!(".{ending}")).collect();
             Usage {
                 problem: format!("{output}: expected a name that ends in {}", endings.join(" ")),
                 help: "name a file with one of these endings, or a folder with --format".to_owned(),
@@ -282,14 +277,7 @@ fn refuse_same_names(jobs: &[Job]) -> Result<(), Usage> {
     let mut known = HashSet::new();
     match jobs.iter().find(|job| !known.insert(&job.path)) {
         None => Ok(()),
-        Some(job) => Err(Usage {
-            problem: format!(
-                "{} would be written twice, the second time for {}",
-                job.path.display(),
-                job.input
-            ),
-            help: "convert takes of the same name into folders of their own".to_owned(),
-        }),
+        Some(job) => Err(refuse::same_name(&job.path, &job.input)),
     }
 }
 

@@ -5,6 +5,7 @@ use crate::cli::{Convert, OfFormat};
 use crate::error::Usage;
 use posewire::endpoint::{Endpoint, FileFormat};
 use posewire_motion::Section;
+use std::path::Path;
 
 /// A take is read from a file, some of it twice, and a file appears when it is whole: streams can do neither.
 pub(super) fn standard_streams(inputs: &[String], output: &str) -> Result<(), Usage> {
@@ -22,6 +23,78 @@ pub(super) fn standard_streams(inputs: &[String], output: &str) -> Result<(), Us
         });
     }
     Ok(())
+}
+
+/// One path alone is read, and nothing is written.
+pub(super) fn no_output(input: &str) -> Usage {
+    Usage {
+        problem: format!("{input} has no file to be written to"),
+        help: "name it behind the take, as in posewire convert take.mvnx take.bvh".to_owned(),
+    }
+}
+
+/// The second of two inputs whose files would be one.
+pub(super) fn same_name(output: &Path, input: &str) -> Usage {
+    Usage {
+        problem: format!(
+            "{} would be written twice, the second time for {input}",
+            output.display()
+        ),
+        help: "convert takes of the same name into folders of their own".to_owned(),
+    }
+}
+
+/// Recordings and captures hold datagrams, of which takes have none.
+pub(super) fn captures(inputs: &[String], output: &str) -> Result<(), Usage> {
+    if !matches!(output.parse(), Ok(Endpoint::Capture { .. })) || Path::new(output).is_dir() {
+        return Ok(());
+    }
+    Err(match inputs.iter().find(|input| !is_capture(input)) {
+        Some(input) => Usage {
+            problem: format!("{output} is made of a recording or capture, found {input}"),
+            help: format!("stream {input}, and record that: posewire record mxtp://0.0.0.0 -o {output}"),
+        },
+        None => Usage {
+            problem: format!("several captures go into a folder, and {output} names a file"),
+            help: "name a folder, with --format mcap or --format pcapng".to_owned(),
+        },
+    })
+}
+
+/// Whether an input is called as recordings and captures are.
+pub(super) fn is_capture(input: &str) -> bool {
+    matches!(input.parse(), Ok(Endpoint::Capture { .. }))
+}
+
+/// What is done to poses is done to no datagram.
+pub(super) fn of_takes(arguments: &Convert) -> Result<(), Usage> {
+    let format = &arguments.of_format;
+    let options = [
+        ("--from", arguments.from.is_some()),
+        ("--to", arguments.to.is_some()),
+        ("--rate", arguments.rate.is_some()),
+        ("--axes", arguments.axes.is_some()),
+        ("--unit", arguments.unit.is_some()),
+        ("--salvage", arguments.salvage),
+        ("--duration", arguments.duration.is_some()),
+        ("--mvnx-version", format.mvnx_version.is_some()),
+        ("--csv-sheets", format.csv_sheets),
+        ("--bvh-translations", format.bvh_translations),
+        ("--bvh-t-pose", format.bvh_t_pose),
+        ("--parquet-micro-units", format.parquet.micro_units),
+    ];
+    match options.into_iter().find(|(_, is_given)| *is_given) {
+        None => Ok(()),
+        Some((option, _)) => Err(Usage {
+            problem: format!("{option} is for takes, and a capture becomes another with every datagram as it came"),
+            help: match option {
+                "--from" | "--to" | "--duration" => {
+                    format!("leave {option} out; posewire replay sends a part, with --from and --until in seconds")
+                }
+                _ => format!("leave {option} out"),
+            },
+        }),
+    }
 }
 
 /// Options of one format, where another is written.

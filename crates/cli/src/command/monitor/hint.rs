@@ -16,7 +16,35 @@ pub(super) fn opening(endpoint: &Endpoint) -> String {
 }
 
 /// What to check when nothing comes that can be read, or nothing more since something was `heard`.
-pub(super) fn of(endpoint: &Endpoint, heard: bool, statistics: Option<&Statistics>) -> String {
+pub(in crate::command) fn of(endpoint: &Endpoint, heard: bool, statistics: Option<&Statistics>) -> String {
+    let checks = checks(endpoint, heard, statistics);
+    let server = statistics.and_then(|all| all.server.as_deref());
+    let is_answer = server.is_some_and(|server| server.better.is_some());
+    if heard || is_answer {
+        return checks;
+    }
+    // A port that we listen on is ours alone.
+    let when = match endpoint {
+        Endpoint::MxtpUdp(_) | Endpoint::MxtpTcp(_) if !connects(endpoint) => ", once this has ended",
+        _ => "",
+    };
+    format!(
+        "{checks}\nor let posewire doctor look for the cause{when}:\nposewire doctor {}",
+        quoted(endpoint)
+    )
+}
+
+/// An endpoint as a shell takes it.
+fn quoted(endpoint: &Endpoint) -> String {
+    let text = endpoint.to_string();
+    if text.contains(['?', '&']) {
+        format!("\"{text}\"")
+    } else {
+        text
+    }
+}
+
+fn checks(endpoint: &Endpoint, heard: bool, statistics: Option<&Statistics>) -> String {
     match (endpoint, statistics) {
         (Endpoint::NatNet(_), _) if heard => {
             format!("nothing more comes from {endpoint}: is the server paused, or gone?")
@@ -237,6 +265,25 @@ mod tests {
         assert_says(&here, &["Local Interface is Loopback"]);
         let anybody = of(&endpoint("natnet://0.0.0.0"), false, None);
         assert_says(&anybody, &["no NatNet server has answered", "natnet://HOST"]);
+    }
+
+    #[test]
+    fn the_doctor_is_named_with_the_url_to_examine() {
+        let silent = of(&endpoint("mxtp://239.1.2.3?interface=eth0"), false, None);
+        assert_says(
+            &silent,
+            &[
+                "once this has ended",
+                "\nposewire doctor \"mxtp://239.1.2.3:9763?interface=eth0\"",
+            ],
+        );
+        let server = of(&endpoint("natnet://10.0.0.7"), false, None);
+        assert_says(
+            &server,
+            &["the cause:\nposewire doctor \"natnet://10.0.0.7:1510?mode=unicast\""],
+        );
+        let paused = of(&endpoint("mxtp://0.0.0.0"), true, None);
+        assert!(!paused.contains("doctor"), "{paused}");
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! `posewire monitor`: receive a stream, check it and show it.
 
 mod board;
-mod hint;
+pub(super) mod hint;
 mod page;
 mod print;
 mod protocol;

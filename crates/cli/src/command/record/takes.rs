@@ -1,6 +1,6 @@
 //! `posewire record --remote`: takes that somebody else begins and ends.
 
-use super::{EVERY, LOOK_EVERY, MEGABYTE, QUIET, RECORDER, Rate, Shouts, say_silent, tell_failure};
+use super::{EVERY, LOOK_EVERY, MEGABYTE, QUIET, RECORDER, Rate, Shouts, Warnings, say_silent, tell_failure};
 use crate::cli::Record;
 use crate::command::End;
 use crate::context::{self, Teller, end_progress, say, show_progress};
@@ -11,6 +11,7 @@ use posewire::remote::{RecordingControl, Remote};
 use posewire::sink::{TakeProgress, Takes, TakesProgress, TakesSink};
 use posewire::stop::Stop;
 use posewire::{Session, Source};
+use std::fs;
 use std::net::SocketAddr;
 use std::time::Instant;
 
@@ -18,6 +19,8 @@ use std::time::Instant;
 pub(super) fn run(arguments: &Record, address: SocketAddr, sources: Vec<Source>, stop: &Stop) -> anyhow::Result<End> {
     refuse(arguments)?;
     let remote = Remote::bind(address)?;
+    let folder = &arguments.output;
+    fs::create_dir_all(folder).map_err(|error| posewire::Error::write(folder.display().to_string(), &error))?;
     let endpoints: Vec<_> = sources.iter().map(|source| source.endpoint().clone()).collect();
     let split = arguments.split_size.map(|megabytes| megabytes * MEGABYTE);
     let sink = TakesSink::new(&arguments.output, &endpoints, split);
@@ -58,10 +61,10 @@ fn refuse(arguments: &Record) -> Result<(), Usage> {
             help: "leave --overwrite out".to_owned(),
         });
     }
-    if !arguments.output.is_dir() {
+    if arguments.output.exists() && !arguments.output.is_dir() {
         return Err(Usage {
             problem: format!("expected a folder for the takes, found {}", arguments.output.display()),
-            help: "with --remote, -o names a folder that is there; each take is a file in it".to_owned(),
+            help: "with --remote, -o names a folder; each take is a file in it".to_owned(),
         });
     }
     Ok(())
@@ -116,6 +119,7 @@ struct Recording {
     number: u32,
     rate: Rate,
     shouts: Shouts,
+    warnings: Warnings,
     dropped_before: u64,
 }
 
@@ -125,6 +129,7 @@ impl Recording {
             number,
             rate: Rate::new(Instant::now()),
             shouts: Shouts::default(),
+            warnings: Warnings::default(),
             dropped_before: 0,
         }
     }
@@ -138,6 +143,7 @@ impl Recording {
         take.recorded.dropped = take.recorded.dropped.max(dropped);
         self.rate.note(now, take.recorded.datagrams());
         self.shouts.heed(now, &take.recorded);
+        self.warnings.heed(&take.recorded);
         render::recording_line(&take.recorded, self.rate.per_second, take.lasted)
     }
 }
@@ -146,7 +152,7 @@ impl Recording {
 fn tell_of_silence(progress: &TakesProgress) {
     for (endpoint, datagrams) in &progress.sources {
         if *datagrams == 0 && !matches!(endpoint, Endpoint::Synthetic(_)) {
-            say_silent(endpoint);
+            say_silent(endpoint, None);
         }
     }
 }

@@ -6,7 +6,7 @@ use posewire::endpoint::Endpoint;
 use posewire::sink::{ClientProgress, ClientState, LeftOut, Progress, TargetProgress};
 
 /// Who is known to be there, and what is known to be left out.
-pub(super) struct Peers {
+pub(in crate::command) struct Peers {
     known: Vec<TargetProgress>,
     left_out: Vec<LeftOut>,
 }
@@ -14,7 +14,7 @@ pub(super) struct Peers {
 impl Peers {
     /// The peers of `progress`, of whom nothing is said but when they go. A client has come since the target was opened, which
     /// is to be told.
-    pub(super) fn of(progress: &Progress) -> Self {
+    pub(in crate::command) fn of(progress: &Progress) -> Self {
         let mut known = progress.targets.clone();
         for target in &mut known {
             target.clients.clear();
@@ -26,7 +26,7 @@ impl Peers {
     }
 
     /// Says what has happened since the last time.
-    pub(super) fn tell(&mut self, progress: &Progress) {
+    pub(in crate::command) fn tell(&mut self, progress: &Progress) {
         let before = |now| (known(&self.known, now), now);
         let peers = progress.targets.iter().map(before).flat_map(changes);
         let new: Vec<_> = progress

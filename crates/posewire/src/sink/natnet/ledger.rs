@@ -4,11 +4,12 @@ use crate::net::Sent;
 use crate::sink::{ClientProgress, ClientState, TargetProgress};
 use posewire_natnet::Version;
 use posewire_natnet::command::Sender;
+use posewire_natnet::server::{Event, LeftReason};
 use std::net::SocketAddr;
 
 /// Who is served, and what became of the frames.
 #[derive(Debug, Default)]
-pub(super) struct Ledger {
+pub(crate) struct Ledger {
     clients: Vec<ClientProgress>,
     datagrams: u64,
     congested: u64,
@@ -17,8 +18,28 @@ pub(super) struct Ledger {
 }
 
 impl Ledger {
+    /// Enters what a server tells of its clients.
+    pub(crate) fn note(&mut self, event: Event) {
+        match event {
+            Event::Connected {
+                client,
+                sender,
+                version,
+            } => self.connected(client, sender.as_ref(), version),
+            Event::Version { client, version } => self.changed(client, version),
+            Event::Left { client, reason } => self.left(
+                client,
+                match reason {
+                    LeftReason::Silent => ClientState::Silent,
+                    LeftReason::Disconnected => ClientState::Left,
+                },
+            ),
+            other => tracing::warn!(event = ?other, "NatNet client"),
+        }
+    }
+
     /// Enters a client, or one that comes again.
-    pub(super) fn connected(&mut self, address: SocketAddr, sender: Option<&Sender>, version: Version) {
+    fn connected(&mut self, address: SocketAddr, sender: Option<&Sender>, version: Version) {
         if let Some(known) = self.find(address) {
             (known.state, known.version) = (ClientState::Connected, version);
             return;
@@ -40,20 +61,20 @@ impl Ledger {
         });
     }
 
-    pub(super) fn changed(&mut self, address: SocketAddr, version: Version) {
+    fn changed(&mut self, address: SocketAddr, version: Version) {
         if let Some(client) = self.find(address) {
             client.version = version;
         }
     }
 
-    pub(super) fn left(&mut self, address: SocketAddr, state: ClientState) {
+    fn left(&mut self, address: SocketAddr, state: ClientState) {
         if let Some(client) = self.find(address) {
             client.state = state;
         }
     }
 
     /// Enters what became of one frame for `to`.
-    pub(super) fn count(&mut self, to: SocketAddr, sent: Sent) {
+    pub(crate) fn count(&mut self, to: SocketAddr, sent: Sent) {
         let taken = matches!(sent, Sent::Taken);
         match sent {
             Sent::Taken => self.datagrams += 1,
@@ -84,7 +105,7 @@ impl Ledger {
         self.clients.iter().filter(is_there).count()
     }
 
-    pub(super) fn progress(&self, endpoint: &str, multicast: bool) -> TargetProgress {
+    pub(crate) fn progress(&self, endpoint: &str, multicast: bool) -> TargetProgress {
         TargetProgress {
             endpoint: endpoint.to_owned(),
             peers: if multicast { 1 } else { self.peers() },

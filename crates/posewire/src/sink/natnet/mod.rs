@@ -14,6 +14,7 @@ use crate::stop::Stop;
 use crate::{Item, Result, SourceId};
 pub(crate) use faulty::FaultyFrames;
 use gathering::Share;
+pub(crate) use ledger::Ledger;
 pub(crate) use ports::Ports;
 use posewire_motion::{Frame, Subject};
 use serving::Serving;

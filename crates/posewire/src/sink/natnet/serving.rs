@@ -8,13 +8,13 @@ use super::ports::Ports;
 use crate::clock::Clock;
 use crate::endpoint::{Endpoint, NatNetAddress};
 use crate::histogram::DurationHistogram;
-use crate::sink::{ClientState, LeftOut, Progress};
+use crate::sink::{LeftOut, Progress};
 use crate::{Error, Result};
 use posewire_motion::{Frame, Stamp, Subject};
 use posewire_natnet::client::Mode;
 use posewire_natnet::frame::HostStamps;
 use posewire_natnet::motion::{Encoder, lacks};
-use posewire_natnet::server::{Delivery, Event, LeftReason, Server, ServerOptions};
+use posewire_natnet::server::{Delivery, Server, ServerOptions};
 use posewire_natnet::{Output, Socket, Transmit};
 use std::collections::{BTreeMap, BTreeSet};
 use std::net::SocketAddr;
@@ -257,7 +257,7 @@ impl Serving {
         while let Some(output) = self.server.poll() {
             match output {
                 Output::Transmit(transmit) => self.transmit(&transmit),
-                Output::Event(event) => self.note(event),
+                Output::Event(event) => self.ledger.note(event),
             }
         }
     }
@@ -283,25 +283,6 @@ impl Serving {
         let sent = self.ports.send(transmit);
         if transmit.socket == Socket::Data {
             self.ledger.count(transmit.to, sent);
-        }
-    }
-
-    fn note(&mut self, event: Event) {
-        match event {
-            Event::Connected {
-                client,
-                sender,
-                version,
-            } => self.ledger.connected(client, sender.as_ref(), version),
-            Event::Version { client, version } => self.ledger.changed(client, version),
-            Event::Left { client, reason } => self.ledger.left(
-                client,
-                match reason {
-                    LeftReason::Silent => ClientState::Silent,
-                    LeftReason::Disconnected => ClientState::Left,
-                },
-            ),
-            other => tracing::warn!(event = ?other, "NatNet client"),
         }
     }
 

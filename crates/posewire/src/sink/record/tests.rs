@@ -192,3 +192,38 @@ fn what_could_not_be_written_is_not_counted_as_recorded() {
     assert_eq!((progress.datagrams(), progress.unwritten), (4, 5));
     assert_eq!((survey.datagrams(), survey.complete), (4, false));
 }
+
+#[cfg(unix)]
+#[test]
+fn no_file_of_a_recording_replaces_one_that_is_recorded_anew() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, link) = (folder.path().join("take.mcap"), folder.path().join("link.mcap"));
+    recorder(&path, None).finish().unwrap();
+    std::os::unix::fs::symlink(&path, &link).unwrap();
+    let before = fs::read(&path).unwrap();
+    let source: Endpoint = path.to_str().unwrap().parse().unwrap();
+    let create = |to: &Path, split| {
+        let options = RecordOptions { split, overwrite: true };
+        RecordSink::create(to, &[source.clone()], options, Stop::new())
+    };
+    for to in [&path, &link] {
+        let expected = Error::OntoItself { path: to.clone() };
+        assert_eq!(create(to, None).unwrap_err(), expected);
+    }
+    // The second file of this one would have the name.
+    let second = folder.path().join("new-002.mcap");
+    fs::rename(&path, &second).unwrap();
+    let source: Endpoint = second.to_str().unwrap().parse().unwrap();
+    let options = RecordOptions {
+        split: Some(1),
+        overwrite: true,
+    };
+    let mut sink = RecordSink::create(&folder.path().join("new.mcap"), &[source], options, Stop::new()).unwrap();
+    for number in 0..2 {
+        give(&mut sink, [datagram(number, "10.0.0.1:5000", header(0))]);
+        sink.handle_timeout().unwrap();
+    }
+    sink.finish().unwrap();
+    assert_eq!(fs::read(second).unwrap(), before);
+    assert!(folder.path().join("new-003.mcap").exists());
+}

@@ -18,6 +18,8 @@ use std::time::{Duration, Instant};
 #[derive(Debug)]
 pub(super) struct CapturePlayback {
     path: PathBuf,
+    /// From its first datagram to its last.
+    lasts: Duration,
     options: PlaybackOptions,
     /// The datagrams of all that are played together, by which each knows when its own are due.
     playlist: Playlist,
@@ -41,7 +43,7 @@ impl CapturePlayback {
     pub(super) fn open(path: &Path, options: &PlaybackOptions) -> Result<Self> {
         let survey = survey(path, options)?;
         let source = survey.choose(path, options.only.as_deref())?;
-        Self::of(path, options, source, &Together::of(1))
+        Self::of((path, survey.lasts()), options, source, &Together::of(1))
     }
 
     /// Opens each source that is meant; all of them if none is named.
@@ -53,11 +55,16 @@ impl CapturePlayback {
             survey.choose(path, None)?;
         }
         let together = Together::of(sources.len());
-        let open = |source| Self::of(path, options, source, &together);
+        let open = |source| Self::of((path, survey.lasts()), options, source, &together);
         sources.into_iter().map(open).collect()
     }
 
-    fn of(path: &Path, options: &PlaybackOptions, source: &CapturedSource, together: &Together) -> Result<Self> {
+    fn of(
+        (path, lasts): (&Path, Duration),
+        options: &PlaybackOptions,
+        source: &CapturedSource,
+        together: &Together,
+    ) -> Result<Self> {
         let reading = reading(options);
         let selection = Selection {
             source: (together.count == 1).then_some(source.number),
@@ -69,6 +76,7 @@ impl CapturePlayback {
         };
         Ok(Self {
             path: path.to_owned(),
+            lasts,
             options: options.clone(),
             playlist: Playlist::open(path, &reading, selection)?,
             source: source.clone(),
@@ -137,9 +145,9 @@ impl CapturePlayback {
     /// The part that is played may have datagrams of others alone; to have none at all is an error.
     fn end_without_any(self, outlet: &mut Outlet) -> Result<()> {
         if self.playlist.is_empty() {
-            return Err(Error::NoDatagrams {
+            return Err(Error::NothingInTime {
                 path: self.path,
-                found: "none in that time".to_owned(),
+                lasts: self.lasts,
             });
         }
         let text = format!("{} has no datagram in that time", self.source.name);

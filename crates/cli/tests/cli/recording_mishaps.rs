@@ -1,0 +1,201 @@
+//! What can happen to a recording: its file is gone, taken or cut off, and nobody sends, or two send at once.
+
+use crate::program::{objects, posewire};
+use crate::record::{Recorder, interrupt, send_until};
+use posewire::recording::Survey;
+use std::fs;
+use std::net::UdpSocket;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// Sends some datagrams.
+fn send(port: u16) {
+    send_until(port, 1000, |sent| sent >= 200);
+}
+
+/// Waits until a file has something in it.
+fn wait_for(mut is_so: impl FnMut() -> bool) {
+    let begun = Instant::now();
+    while !is_so() {
+        assert!(begun.elapsed() < Duration::from_mins(1));
+        std::thread::yield_now();
+    }
+}
+
+fn datagrams(path: &Path) -> u64 {
+    Survey::of(path).map_or(0, |survey| survey.datagrams())
+}
+
+#[test]
+fn a_file_that_is_being_recorded_is_left_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("take.mcap");
+    let recorder = Recorder::start(folder.path(), &["-o", "take.mcap"]);
+    send(recorder.port);
+    wait_for(|| datagrams(&path) == 200);
+
+    let seen = posewire(folder.path(), &["inspect", "take.mcap"], b"");
+    assert!(seen.out.contains("no, it is being recorded"), "{}", seen.out);
+    let refused: [&[&str]; 2] = [
+        &["inspect", "take.mcap", "--recover"],
+        &[
+            "record",
+            "mxtp://127.0.0.1:0",
+            "-o",
+            "take.mcap",
+            "--overwrite",
+            "--duration",
+            "0.1",
+        ],
+    ];
+    for arguments in refused {
+        let ended = posewire(folder.path(), arguments, b"");
+        assert_eq!(ended.code, Some(1), "{arguments:?}: {}", ended.err);
+        assert!(
+            ended.err.contains("error: take.mcap is being recorded"),
+            "{}",
+            ended.err
+        );
+    }
+    let copied = posewire(
+        folder.path(),
+        &["inspect", "take.mcap", "--recover", "-o", "so-far.mcap"],
+        b"",
+    );
+    assert_eq!(copied.code, Some(0), "{}", copied.err);
+
+    send(recorder.port);
+    interrupt(&recorder.child);
+    assert_eq!(recorder.end().code, Some(0));
+    assert_eq!(datagrams(&path), 400);
+}
+
+#[test]
+fn a_file_that_is_removed_while_it_is_recorded_is_shouted_about() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("take.mcap");
+    let recorder = Recorder::start(folder.path(), &["-o", "take.mcap", "--json"]);
+    send(recorder.port);
+    wait_for(|| datagrams(&path) == 200);
+    fs::remove_file(&path).unwrap();
+    let ended = recorder.end();
+    assert_eq!(ended.code, Some(3), "{}", ended.err);
+    assert!(
+        ended
+            .err
+            .contains("error: take.mcap was removed or replaced while it was recorded"),
+        "{}",
+        ended.err
+    );
+    let last = objects(&ended.out, "recording").pop().unwrap();
+    assert_eq!((&last["datagrams"], &last["unwritten"]), (&0.into(), &200.into()));
+}
+
+#[test]
+fn a_file_that_is_moved_while_it_is_recorded_has_everything_in_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, moved) = (folder.path().join("take.mcap"), folder.path().join("moved.mcap"));
+    let recorder = Recorder::start(folder.path(), &["-o", "take.mcap"]);
+    send(recorder.port);
+    wait_for(|| datagrams(&path) == 200);
+    fs::rename(&path, &moved).unwrap();
+    send(recorder.port);
+    interrupt(&recorder.child);
+    let ended = recorder.end();
+    assert_eq!(ended.code, Some(3), "{}", ended.err);
+    assert!(
+        ended.err.contains("take.mcap was MOVED while it was recorded"),
+        "{}",
+        ended.err
+    );
+    assert_eq!(datagrams(&moved), 400);
+}
+
+#[test]
+fn who_sends_nothing_and_who_sends_the_same_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let silent = posewire(
+        folder.path(),
+        &["record", "mxtp://127.0.0.1:0", "-o", "none.mcap", "--duration", "0.2"],
+        b"",
+    );
+    assert_eq!(silent.code, Some(0), "{}", silent.err);
+    assert!(
+        silent.err.contains("NOTHING CAME from mxtp://127.0.0.1:"),
+        "{}",
+        silent.err
+    );
+
+    let recorder = Recorder::start(folder.path(), &["-o", "two.mcap", "--json"]);
+    let senders = [(); 2].map(|()| UdpSocket::bind("127.0.0.1:0").unwrap());
+    let mut datagram = b"MXTP02\0\0\0\x01\x80\x17\0\0\0\0\x05\x17\0\0\0\0\0\0".to_vec();
+    for sample in 0..6 {
+        datagram[9] = sample;
+        let sender = &senders[usize::from(sample % 2)];
+        sender.send_to(&datagram, ("127.0.0.1", recorder.port)).unwrap();
+    }
+    wait_for(|| datagrams(&folder.path().join("two.mcap")) == 6);
+    interrupt(&recorder.child);
+    let ended = recorder.end();
+    let last = objects(&ended.out, "recording").pop().unwrap();
+    let said = last["sources"][0]["two_senders"][0].as_str().unwrap();
+    assert!(said.ends_with(" send character 5 at the same time."), "{said}");
+}
+
+#[test]
+fn each_file_of_a_split_recording_that_was_killed_is_completed() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let mut recorder = Recorder::start(folder.path(), &["-o", "take.mcap", "--split-size", "1"]);
+    send_until(recorder.port, 10_000, |_| datagrams(&at("take-003.mcap")) > 0);
+    recorder.child.kill().unwrap();
+    recorder.child.wait().unwrap();
+
+    let seen = posewire(folder.path(), &["inspect", "take.mcap"], b"");
+    assert!(seen.out.contains("goes on in   take-002.mcap"), "{}", seen.out);
+    let copied = posewire(
+        folder.path(),
+        &["inspect", "take.mcap", "--recover", "-o", "whole.mcap"],
+        b"",
+    );
+    assert_eq!(copied.code, Some(0), "{}", copied.err);
+    let seen = posewire(folder.path(), &["inspect", "take.mcap", "--recover", "--json"], b"");
+    assert_eq!(seen.code, Some(0), "{}", seen.err);
+    let object = objects(&seen.out, "mcap").remove(0);
+    let later = object["later"].as_array().unwrap();
+    assert!(
+        later.len() >= 2 && later.iter().all(|file| file["complete"] == true),
+        "{}",
+        seen.out
+    );
+    for name in ["", "-002", "-003"] {
+        let [taken, whole] = ["take", "whole"].map(|stem| at(&format!("{stem}{name}.mcap")));
+        assert!(Survey::of(&taken).unwrap().complete && Survey::of(&whole).unwrap().complete);
+        assert_eq!(datagrams(&taken), datagrams(&whole));
+    }
+}
+
+#[test]
+fn a_recording_is_not_recorded_onto_itself_and_damage_in_it_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("take.mcap");
+    let recorder = Recorder::start(folder.path(), &["-o", "take.mcap"]);
+    send(recorder.port);
+    wait_for(|| datagrams(&path) == 200);
+    let length = fs::metadata(&path).unwrap().len();
+    send(recorder.port);
+    interrupt(&recorder.child);
+    assert_eq!(recorder.end().code, Some(0));
+
+    let before = fs::read(&path).unwrap();
+    let again = posewire(
+        folder.path(),
+        &["record", "take.mcap", "-o", "take.mcap", "--overwrite"],
+        b"",
+    );
+    assert_eq!(again.code, Some(2), "{}", again.err);
+    assert_eq!(fs::read(&path).unwrap(), before);
+    fs::write(&path, &before[..length as usize]).unwrap();
+    let damaged = posewire(folder.path(), &["record", "take.mcap", "-o", "again.mcap"], b"");
+    assert_eq!(damaged.code, Some(3), "{}", damaged.err);
+}
