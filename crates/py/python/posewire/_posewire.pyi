@@ -274,7 +274,7 @@ def read_all(
 ) -> list[Take]: ...
 def listen(
     *urls: str,
-    capacity: int = 65_536,
+    capacity: int = 8192,
     on_overflow: Literal["raise", "count"] = "raise",
     stale_after: float = 0.1,
     lost_after: float = 1.0,

@@ -25,7 +25,7 @@ use std::time::Duration;
 /// A sample is LIVE until it is `stale_after` seconds old and LOST from `lost_after` on. `loop`, `speed` and `only` are for what
 /// is played.
 #[pyfunction]
-#[pyo3(signature = (*urls, capacity = 65_536, on_overflow = "raise", stale_after = 0.1, lost_after = 1.0, r#loop = false, speed = 1.0,
+#[pyo3(signature = (*urls, capacity = 8192, on_overflow = "raise", stale_after = 0.1, lost_after = 1.0, r#loop = false, speed = 1.0,
     only = None))]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub(crate) fn listen(
