@@ -15,7 +15,7 @@ mod stream;
 mod tests;
 mod value;
 
-pub(crate) use capture::Capture;
+pub(crate) use capture::{Capture, Part};
 pub(crate) use convert::{Axes, Convert, OfFormat, Unit};
 pub(crate) use demo::Demo;
 pub(crate) use doctor::Doctor;

@@ -24,6 +24,17 @@ pub(crate) struct Again {
 /// What of a recording or capture is used.
 #[derive(Debug, Args)]
 pub(crate) struct Capture {
+    #[command(flatten)]
+    pub(crate) part: Part,
+
+    /// Of a capture of packets: what its UDP datagrams are; told by their content when left out.
+    #[arg(long = "protocol", value_enum, ignore_case = true)]
+    pub(crate) forced: Option<Protocol>,
+}
+
+/// Which datagrams of a recording or capture are used.
+#[derive(Debug, Args)]
+pub(crate) struct Part {
     /// Of a capture: only this source, by its number or a part of its name.
     #[arg(long, value_name = "SOURCE")]
     pub(crate) only: Option<String>,
@@ -35,13 +46,9 @@ pub(crate) struct Capture {
     /// Of a capture: end so many seconds after its first datagram.
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     pub(crate) until: Option<Duration>,
-
-    /// Of a capture of packets: what its UDP datagrams are; told by their content when left out.
-    #[arg(long = "protocol", value_enum, ignore_case = true)]
-    pub(crate) forced: Option<Protocol>,
 }
 
-impl Capture {
+impl Part {
     /// Refuses a part that ends before it begins.
     pub(crate) fn check(&self) -> Result<(), Usage> {
         match (self.from, self.until) {
@@ -57,6 +64,17 @@ impl Capture {
         }
     }
 
+    /// The options that were given.
+    pub(crate) fn given(&self) -> [(&'static str, bool); 3] {
+        [
+            ("--only", self.only.is_some()),
+            ("--from", self.from.is_some()),
+            ("--until", self.until.is_some()),
+        ]
+    }
+}
+
+impl Capture {
     /// The protocol that was named.
     pub(crate) fn protocol(&self) -> Option<posewire::capture::Protocol> {
         self.forced.map(Into::into)
@@ -64,11 +82,7 @@ impl Capture {
 
     /// The options that were given.
     pub(crate) fn given(&self) -> [(&'static str, bool); 4] {
-        [
-            ("--only", self.only.is_some()),
-            ("--from", self.from.is_some()),
-            ("--until", self.until.is_some()),
-            ("--protocol", self.forced.is_some()),
-        ]
+        let [only, from, until] = self.part.given();
+        [only, from, until, ("--protocol", self.forced.is_some())]
     }
 }

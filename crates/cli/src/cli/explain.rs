@@ -1,7 +1,8 @@
 //! The arguments of `posewire explain`.
 
+use super::capture::Part;
 use super::value::bitstream;
-use clap::{Args, ValueEnum};
+use clap::{ArgAction, Args, ValueEnum};
 use posewire_natnet::Version;
 use std::path::PathBuf;
 
@@ -21,6 +22,7 @@ Examples:
   posewire explain frame.bin --version 3.1
   posewire explain cut.bin --protocol natnet
   posewire explain take.pcapng --summary
+  posewire explain take.mcap --only 0 --from 10 --until 10.1
   xxd -r -p packet.hex | posewire explain -"
 )]
 pub(crate) struct Explain {
@@ -42,6 +44,14 @@ pub(crate) struct Explain {
     /// Print JSON, one object for each datagram.
     #[arg(long)]
     pub(crate) json: bool,
+
+    #[command(flatten)]
+    pub(crate) part: Part,
+
+    /// Print version
+    // In the other verbs --version does too, which here is that of the bitstream.
+    #[arg(short = 'V', action = ArgAction::Version)]
+    pub(crate) print_version: Option<bool>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -24,7 +24,7 @@ pub(crate) struct Record {
     #[arg(value_name = "URL", required = true)]
     pub(crate) urls: Vec<String>,
 
-    /// The file to write; one that is there is left alone. With --remote, the folder for the takes.
+    /// The .mcap file to write; one that is there is left alone. With --remote, the folder for the takes.
     #[arg(long, short, value_name = "FILE")]
     pub(crate) output: PathBuf,
 
@@ -32,11 +32,11 @@ pub(crate) struct Record {
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     pub(crate) duration: Option<Duration>,
 
-    /// Begin a new file whenever one has about so many megabytes.
+    /// Begin a new file before one has more than so many megabytes.
     #[arg(long, value_name = "MB", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     pub(crate) split_size: Option<u64>,
 
-    /// Replace the file if it is there.
+    /// Replace the file if it is there and nobody records into it.
     #[arg(long)]
     pub(crate) overwrite: bool,
 

@@ -20,16 +20,7 @@ pub(super) fn run(arguments: &Explain) -> anyhow::Result<End> {
     if capture::is_capture(&arguments.file) {
         return explain_capture(arguments);
     }
-    if arguments.summary {
-        return Err(Usage {
-            problem: format!(
-                "--summary is for recordings and captures, {} is neither",
-                arguments.file.display()
-            ),
-            help: "leave --summary out".to_owned(),
-        }
-        .into());
-    }
+    refuse_of_captures(arguments)?;
     let bytes = input::read(&arguments.file)?;
     let name = input::name(&arguments.file);
     let reading = Reading::of(&bytes, arguments, &name)?;
@@ -42,6 +33,23 @@ pub(super) fn run(arguments: &Explain) -> anyhow::Result<End> {
     Err(nothing_decoded(&name, &bytes, &tally, &reading).into())
 }
 
+/// Raw bytes have no times and no senders.
+fn refuse_of_captures(arguments: &Explain) -> Result<(), Usage> {
+    let mut given = [("--summary", arguments.summary)]
+        .into_iter()
+        .chain(arguments.part.given());
+    match given.find(|(_, is_given)| *is_given) {
+        None => Ok(()),
+        Some((option, _)) => Err(Usage {
+            problem: format!(
+                "{option} is for recordings and captures, {} is neither",
+                arguments.file.display()
+            ),
+            help: format!("leave {option} out"),
+        }),
+    }
+}
+
 fn explain_capture(arguments: &Explain) -> anyhow::Result<End> {
     let mut out = BufWriter::new(io::stdout().lock());
     let tally = capture::write_all(arguments, &mut out)?;
@@ -52,6 +60,9 @@ fn explain_capture(arguments: &Explain) -> anyhow::Result<End> {
     let name = input::name(&arguments.file);
     Err(Failure {
         problem: match tally.malformed {
+            0 if arguments.part.from.is_some() || arguments.part.until.is_some() => {
+                format!("{name}: expected datagrams in that time, found none")
+            }
             0 => format!("{name}: expected datagrams of MXTP or NatNet, found none"),
             count => format!("{name}: all {count} datagrams are malformed and were explained as far as they go"),
         },

@@ -88,7 +88,7 @@ fn open(urls: &[String]) -> anyhow::Result<Vec<Source>> {
             }
             .into());
         }
-        sources.push(Source::open(&endpoint, &PlaybackOptions::default())?);
+        sources.extend(Source::open_all(&endpoint, &PlaybackOptions::default())?);
     }
     Ok(sources)
 }
@@ -252,3 +252,23 @@ const RECORDER: usize = 0;
 const QUIET: Duration = Duration::from_secs(3);
 /// Warnings of one kind; a network in which there are more is known to be wrong.
 const MOST_WARNINGS: usize = 16;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rate_is_told_from_the_first_moment_and_then_each_second() {
+        let begun = Instant::now();
+        let mut rate = Rate::new(begun);
+        let mut told = |milliseconds, count| {
+            rate.note(begun + Duration::from_millis(milliseconds), count);
+            rate.per_second.round() as u64
+        };
+        assert_eq!(told(100, 24), 240);
+        assert_eq!(told(500, 60), 120);
+        assert_eq!(told(1000, 240), 240);
+        assert_eq!(told(1500, 999), 240);
+        assert_eq!(told(2000, 300), 60);
+    }
+}

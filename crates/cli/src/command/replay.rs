@@ -1,7 +1,7 @@
 //! `posewire replay`: the datagrams of a capture sent again.
 
 use super::End;
-use super::stream::peers::Peers;
+use super::stream::{announce_faults, peers::Peers};
 use crate::cli::Replay;
 use crate::context::{self, end_progress, say, show_progress};
 use crate::plain::{grouped, plural};
@@ -18,7 +18,7 @@ use std::thread;
 use std::time::Duration;
 
 pub(super) fn run(arguments: &Replay) -> anyhow::Result<End> {
-    arguments.again.capture.check()?;
+    arguments.again.capture.part.check()?;
     let stop = context::stop_on_interrupt()?;
     let targets = arguments.to.iter().map(|url| url.parse());
     let targets = targets.collect::<posewire::Result<Vec<Endpoint>>>()?;
@@ -26,7 +26,7 @@ pub(super) fn run(arguments: &Replay) -> anyhow::Result<End> {
     let replay = replay::Replay::open(&arguments.file, &targets, &options(arguments, plan.clone()))?;
     announce(arguments, &replay);
     if let Some(plan) = &plan {
-        say(format_args!("faults on purpose: {plan}"));
+        announce_faults(plan, &targets);
     }
     if !arguments.no_wait && !replay.is_ready() {
         say("waiting for somebody to connect");
@@ -52,9 +52,9 @@ fn options(arguments: &Replay, faults: Option<FaultPlan>) -> ReplayOptions {
     ReplayOptions {
         speed: arguments.again.speed,
         looped: arguments.again.looped,
-        from: arguments.again.capture.from.unwrap_or_default(),
-        until: arguments.again.capture.until,
-        only: arguments.again.capture.only.clone(),
+        from: arguments.again.capture.part.from.unwrap_or_default(),
+        until: arguments.again.capture.part.until,
+        only: arguments.again.capture.part.only.clone(),
         protocol: arguments.again.capture.protocol(),
         faults,
     }

@@ -44,7 +44,7 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
     let progress = sinks.progress();
     announce(&sources, sinks.types, &progress.read());
     if let Some(plan) = &plan {
-        say(format_args!("faults on purpose: {plan}"));
+        announce_faults(plan, &targets);
     }
     if let Some(address) = arguments.remote {
         remote::serve(address, &sources, &sinks, &stop)?;
@@ -79,6 +79,23 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
     ))
 }
 
+/// Says what is to go wrong, and what of it has no place at a target.
+pub(super) fn announce_faults(plan: &FaultPlan, targets: &[Endpoint]) {
+    say(format_args!("faults on purpose: {plan}"));
+    let without: Vec<_> = [("drift", plan.drift_ppm), ("nan", plan.nan)]
+        .into_iter()
+        .filter(|(_, amount)| *amount != 0.0)
+        .map(|(name, _)| name)
+        .collect();
+    let is_natnet = |target: &&Endpoint| matches!(target, Endpoint::NatNet(_));
+    if let Some(target) = targets.iter().find(is_natnet).filter(|_| !without.is_empty()) {
+        say(format_args!(
+            "  {target}: without {}, which NatNet frames do not meet",
+            without.join(" and ")
+        ));
+    }
+}
+
 fn playback_options(arguments: &Playback, targets: &[Endpoint]) -> PlaybackOptions {
     PlaybackOptions {
         rate_hz: arguments.rate,
@@ -88,9 +105,9 @@ fn playback_options(arguments: &Playback, targets: &[Endpoint]) -> PlaybackOptio
         salvage: arguments.salvage,
         // NatNet has no place for any of it.
         computes: targets.iter().any(|target| !matches!(target, Endpoint::NatNet(_))),
-        only: arguments.capture.only.clone(),
-        from: arguments.capture.from.unwrap_or_default(),
-        until: arguments.capture.until,
+        only: arguments.capture.part.only.clone(),
+        from: arguments.capture.part.from.unwrap_or_default(),
+        until: arguments.capture.part.until,
         protocol: arguments.capture.protocol(),
     }
 }

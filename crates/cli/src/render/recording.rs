@@ -244,3 +244,34 @@ pub(super) fn seconds(span: Option<(Stamp, Stamp)>) -> f64 {
 pub(super) fn megabytes(bytes: u64) -> String {
     format!("{:.1} MB", bytes as f64 / 1e6)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn source(url: &str, datagrams: u64) -> RecordedSource {
+        RecordedSource {
+            endpoint: url.parse().unwrap(),
+            datagrams,
+            bytes: 0,
+            last: (datagrams > 0).then_some(Stamp(1)),
+            two_senders: Vec::new(),
+            statistics: None,
+        }
+    }
+
+    #[test]
+    fn the_line_says_which_sources_are_silent() {
+        let mut progress = RecordProgress {
+            sources: vec![source("mxtp://0.0.0.0:1", 2400), source("mxtp://0.0.0.0:2", 0)],
+            ..RecordProgress::default()
+        };
+        let line = |progress: &RecordProgress| recording_line(progress, 240.0, Duration::from_secs(10));
+        let said = "10 s, 2,400 datagrams, 240/s, 0.0 MB, nothing from mxtp://0.0.0.0:2";
+        assert_eq!(line(&progress), said);
+        progress.sources.push(source("mxtp://0.0.0.0:3", 0));
+        assert!(line(&progress).ends_with("nothing from 2 of 3 sources"));
+        progress.sources.truncate(1);
+        assert!(line(&progress).ends_with(" MB"));
+    }
+}

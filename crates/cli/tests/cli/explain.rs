@@ -405,3 +405,16 @@ fn captured_natnet_packets_are_told_by_their_bytes() {
         );
     }
 }
+
+#[test]
+fn the_version_of_the_program_is_asked_for_with_v() {
+    let folder = tempfile::tempdir().unwrap();
+    let ended = posewire(folder.path(), &["explain", "-V"], b"");
+    let version = concat!(env!("CARGO_PKG_VERSION"), "\n");
+    assert!(
+        ended.code == Some(0) && ended.out.ends_with(version),
+        "{}{}",
+        ended.out,
+        ended.err
+    );
+}

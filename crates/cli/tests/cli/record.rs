@@ -264,7 +264,7 @@ fn what_cannot_be_recorded_is_refused() {
             &["inspect", "there.mcap", "--recover"],
             2,
             "--recover is for recordings",
-            "--salvage",
+            "give a file that posewire record has written",
         ),
     ] {
         let ended = posewire(folder.path(), arguments, b"");

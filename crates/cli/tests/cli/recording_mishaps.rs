@@ -199,3 +199,21 @@ fn a_recording_is_not_recorded_onto_itself_and_damage_in_it_is_told() {
     let damaged = posewire(folder.path(), &["record", "take.mcap", "-o", "again.mcap"], b"");
     assert_eq!(damaged.code, Some(3), "{}", damaged.err);
 }
+
+#[test]
+fn the_folder_for_takes_is_made() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments = [
+        "record",
+        "mxtp://127.0.0.1:0",
+        "-o",
+        "new/takes",
+        "--remote",
+        "0",
+        "--duration",
+        "0.1",
+    ];
+    let ended = posewire(folder.path(), &arguments, b"");
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    assert!(folder.path().join("new/takes").is_dir());
+}

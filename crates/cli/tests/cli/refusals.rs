@@ -186,3 +186,27 @@ fn a_peer_that_is_not_there_is_named() {
         "nothing listens",
     );
 }
+
+#[test]
+fn what_is_no_recording_is_not_recovered_and_what_is_wrong_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    fs::write(path("empty.mcap"), "").unwrap();
+    fs::write(path("garbage.mcap"), "not at all").unwrap();
+    fs::write(path("take.mvnx"), small_take(2)).unwrap();
+    for (file, code, error, help) in [
+        ("nope.mcap", 1, "cannot read nope.mcap: no such file", "check the path"),
+        ("empty.mcap", 2, "empty.mcap is empty", "posewire record"),
+        ("garbage.mcap", 2, "it begins with \"not at a\"", "posewire record"),
+        ("take.mvnx", 2, "--recover is for recordings", "--salvage"),
+    ] {
+        assert_refused(folder.path(), &["inspect", file, "--recover"], code, error, help);
+    }
+    let options = posewire::recording::WriterOptions::default();
+    let names = ["mxtp://0.0.0.0:9763".to_owned()];
+    let writer = posewire::recording::Writer::create(&path("take.mcap"), &names, options).unwrap();
+    writer.finish().unwrap();
+    let arguments = ["inspect", "take.mcap", "--recover", "-o", "garbage.mcap"];
+    let help = "choose another name; without -o";
+    assert_refused(folder.path(), &arguments, 2, "garbage.mcap is there already", help);
+}

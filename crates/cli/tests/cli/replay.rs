@@ -428,3 +428,67 @@ fn a_part_in_which_nothing_came_is_answered_with_how_long_the_file_is() {
         }
     }
 }
+
+#[test]
+fn a_part_of_a_capture_is_explained() {
+    let folder = tempfile::tempdir().unwrap();
+    write_capture(&folder.path().join("take.pcapng"), 10, 2);
+    let explained = |part: &[&str]| posewire(folder.path(), &[&["explain", "take.pcapng"], part].concat(), b"");
+    let part = ["--only", "10.0.0.3", "--from", "0.004", "--until", "0.02", "--summary"];
+    let ended = explained(&part);
+    let lines: Vec<_> = ended.out.lines().collect();
+    assert_eq!((ended.code, lines.len()), (Some(0), 4), "{}", ended.out);
+    assert!(lines[0].starts_with("    0.004000  10.0.0.1:50000 > 10.0.0.3:9763"));
+    assert!(lines[1].starts_with("    0.012000  "));
+    for (part, words) in [
+        (["--only", "7"], "expected one source \"7\""),
+        (["--from", "9"], "expected datagrams in that time, found none"),
+    ] {
+        assert!(explained(&part).err.contains(words), "{part:?}");
+    }
+    let ended = explained(&["--from=2", "--until=1"]);
+    assert_eq!(ended.code, Some(2), "{}", ended.err);
+    let bytes = timecode(1, 1).bytes;
+    let ended = posewire(folder.path(), &["explain", "-", "--only", "0"], &bytes);
+    assert_eq!(ended.code, Some(2), "{}", ended.err);
+    assert!(
+        ended.err.contains("--only is for recordings and captures"),
+        "{}",
+        ended.err
+    );
+}
+
+#[test]
+fn faults_that_natnet_frames_do_not_meet_are_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let to = ["--to", "natnet://127.0.0.1:0?data-port=0", "--no-wait"];
+    let arguments = [
+        &[
+            "stream",
+            "synthetic:walk",
+            "--faults",
+            "drift=200ppm,loss=1%",
+            "--duration",
+            "0.1",
+        ],
+        &to[..],
+    ];
+    let ended = posewire(folder.path(), &arguments.concat(), b"");
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    assert!(
+        ended.err.contains(": without drift, which NatNet frames do not meet\n"),
+        "{}",
+        ended.err
+    );
+}
+
+#[test]
+fn all_sources_of_a_capture_are_recorded() {
+    let folder = tempfile::tempdir().unwrap();
+    write_capture(&folder.path().join("take.pcapng"), 10, 2);
+    let ended = posewire(folder.path(), &["record", "take.pcapng", "-o", "take.mcap"], b"");
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    let recorded = Capture::open(&folder.path().join("take.mcap"), &CaptureOptions::default()).unwrap();
+    let sources = recorded.map(|captured| captured.unwrap().source);
+    assert_eq!(sources.collect::<Vec<_>>(), [0, 1].repeat(5));
+}

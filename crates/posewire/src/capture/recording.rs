@@ -19,6 +19,8 @@ pub(super) struct Recording {
     names: Vec<String>,
     place: Option<Place>,
     continued: bool,
+    /// Whether the end of the data was read.
+    has_ended: bool,
     counts: Counts,
 }
 
@@ -64,6 +66,7 @@ impl Recording {
             names: Vec::new(),
             place: None,
             continued: false,
+            has_ended: false,
             counts: Counts::default(),
         }
     }
@@ -100,10 +103,15 @@ impl Recording {
     pub(super) fn next(&mut self) -> io::Result<Next> {
         loop {
             let read = match self.reader.next_event() {
-                None => return Ok(Next::End),
+                None if self.has_ended => return Ok(Next::End),
+                // It is cut off also where it ends with a whole chunk.
+                None => return Ok(Next::Damaged(problem(&McapError::UnexpectedEof))),
                 Some(Err(error)) => return Ok(Next::Damaged(problem(&error))),
                 Some(Ok(LinearReadEvent::ReadRequest(wanted))) => Err(wanted),
-                Some(Ok(LinearReadEvent::Record { opcode, data })) => Ok(parse(opcode, data)),
+                Some(Ok(LinearReadEvent::Record { opcode, data })) => {
+                    self.has_ended |= opcode == op::DATA_END;
+                    Ok(parse(opcode, data))
+                }
             };
             match read {
                 Err(wanted) => self.fill(wanted)?,

@@ -2,6 +2,7 @@
 
 use super::{Controlled, Status};
 use crate::recording::TakeName;
+use posewire_mxtp::Error;
 use posewire_mxtp::remote::{Content, Element, Message};
 use std::net::IpAddr;
 
@@ -33,7 +34,7 @@ impl Desk {
     pub(super) fn handle(&mut self, bytes: &[u8], own: impl FnOnce() -> Option<IpAddr>) -> Handled {
         let request = match understood(bytes) {
             Ok(request) => request,
-            Err(refused) => return refused,
+            Err(unread) => return unread.handled(),
         };
         let status = self.controlled.status();
         let answer = match &request {
@@ -113,25 +114,57 @@ impl Desk {
     }
 }
 
-/// What is asked for, or the refusal of it. A request that lacks something is answered, for it may come from a program that waits;
-/// what is no XML is not.
-fn understood(bytes: &[u8]) -> Result<Content, Handled> {
-    let refuse = |answer, reason| Handled {
-        answer,
-        said: Some(Err(reason)),
-    };
-    let element = Element::decode(bytes).map_err(|error| refuse(None, error.to_string()))?;
+/// A message that is not understood.
+struct Unread {
+    /// What it asks for: `StartRecording`; `None` where it is no request, or no XML.
+    request: Option<String>,
+    reason: String,
+}
+
+fn understood(bytes: &[u8]) -> Result<Content, Unread> {
+    let element = Element::decode(bytes).map_err(|error| Unread {
+        request: None,
+        reason: error.to_string(),
+    })?;
     let request = element.name.strip_suffix("Req").map(str::to_owned);
-    let message = Message::of(element).map_err(|error| {
-        let reason = error.to_string();
-        let answer = request.map(|request| Content::Ack {
-            request,
-            result: false,
-            reason: Some(reason.clone()),
-        });
-        refuse(answer.map(Message::from), format!("refused: {reason}"))
+    let message = Message::of(element).map_err(|error| Unread {
+        request,
+        reason: lack(&error),
     })?;
     Ok(message.content)
+}
+
+impl Unread {
+    /// A request that lacks something is answered, as it may come from a program that waits.
+    fn handled(self) -> Handled {
+        let Self { request, reason } = self;
+        let Some(request) = request else {
+            return Handled {
+                answer: None,
+                said: Some(Err(reason)),
+            };
+        };
+        let said = Some(Err(format!("refused {request}: {reason}")));
+        let answer = Content::Ack {
+            request,
+            result: false,
+            reason: Some(reason),
+        };
+        Handled {
+            answer: Some(answer.into()),
+            said,
+        }
+    }
+}
+
+/// What is wrong with a message, for who knows which it is.
+fn lack(error: &Error) -> String {
+    match error {
+        Error::RemoteValue {
+            field, expected, found, ..
+        } => format!("expected {expected} as {field}, found {}", found.escape_debug()),
+        other => other.to_string(),
+    }
 }
 
 /// `walk`, or `walk-001` where the take has a number. An empty name is none.
@@ -256,18 +289,21 @@ mod tests {
     #[test]
     fn a_request_that_lacks_what_it_needs_is_answered_and_told() {
         let mut caller = Caller::new();
+        let port = "expected a number from 1 to 65535 as PortNumber, found 70000";
         for (rest, lacks) in [
-            ("", "IpAddress"),
-            ("IpAddress='10.0.0.5'", "PortNumber"),
-            ("IpAddress='10.0.0.5' PortNumber='70000'", "70000"),
+            ("", "expected a value as IpAddress, found nothing"),
+            ("IpAddress='10.0.0.5'", "expected a value as PortNumber, found nothing"),
+            ("IpAddress='10.0.0.5' PortNumber='70000'", port),
         ] {
             let text = format!("<AddNetworkStreamingTargetReq {rest}/>");
-            let answer = caller.ask(&text);
-            let begins = "<AddNetworkStreamingTargetAck Result=\"FALSE\" Reason=\"";
-            assert!(answer.starts_with(begins) && answer.contains(lacks), "{answer}");
+            let answer = format!("<AddNetworkStreamingTargetAck Result=\"FALSE\" Reason=\"{lacks}\"/>");
+            assert_eq!(caller.ask(&text), answer);
             let said = caller.0.handle(text.as_bytes(), || None).said;
-            assert!(said.unwrap().unwrap_err().contains(lacks));
+            let told = format!("refused AddNetworkStreamingTarget: {lacks}");
+            assert_eq!(said, Some(Err(told)));
         }
+        let hostile = caller.ask("<AddNetworkStreamingTargetReq IpAddress='a' PortNumber='\u{1b}[2J'/>");
+        assert!(!hostile.contains('\u{1b}'), "{hostile}");
         assert_eq!(caller.ask("<StartRecordingAck Result=\"perhaps\"/>"), "");
     }
 

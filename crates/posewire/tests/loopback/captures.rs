@@ -356,6 +356,8 @@ fn a_natnet_recording_is_read_from_wherever_it_begins() {
     assert_eq!(named, played.frames.len() / 2);
     assert_eq!(played.frames[0].subject.rate, Some(240.0));
     assert_eq!(played.server().name, "Motive");
+    let told = played.notices.iter().map(ToString::to_string).next().unwrap();
+    assert!(told.starts_with("read as Motive"), "{told}");
 
     // Only frames, as of a capture that began later.
     let is_frame = |datagram: &&Datagram| datagram.bytes[0] == 7;

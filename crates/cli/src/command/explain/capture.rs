@@ -3,14 +3,15 @@
 use super::natnet::Bitstream;
 use super::protocol::Reading;
 use super::{Tally, json, text};
-use crate::cli::Explain;
+use crate::cli::{Explain, Part};
 use crate::error::Usage;
-use posewire::capture::{Capture, CaptureOptions, Captured, Protocol};
+use posewire::capture::{Capture, CaptureOptions, Captured, Protocol, Survey};
 use posewire::{Datagram, Error};
 use posewire_natnet::{MessageId, Packet};
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::Path;
+use std::time::Duration;
 
 /// Whether the file is one.
 pub(super) fn is_capture(path: &Path) -> bool {
@@ -24,15 +25,21 @@ pub(super) fn write_all(arguments: &Explain, out: &mut impl Write) -> anyhow::Re
     let options = CaptureOptions {
         protocol: arguments.protocol.map(Into::into),
     };
+    arguments.part.check()?;
+    let only = only(arguments, &options)?;
     let readings = Readings::find(arguments, &options)?;
     let mut tally = Tally::default();
     let mut origin = None;
     for captured in Capture::open(&arguments.file, &options)? {
         let captured = captured?;
         let datagram = &captured.datagram;
+        let origin = *origin.get_or_insert(datagram.received);
+        let is_chosen = only.is_none_or(|only| only == captured.source);
+        if !is_chosen || !is_in_time(&arguments.part, datagram.received.since(origin)) {
+            continue;
+        }
         let reading = readings.of(&captured);
         let explained = reading.explain(0, &datagram.bytes);
-        let origin = *origin.get_or_insert(datagram.received);
         if arguments.json {
             json::write_captured(&explained, &captured, out)?;
         } else {
@@ -51,6 +58,20 @@ pub(super) fn write_all(arguments: &Explain, out: &mut impl Write) -> anyhow::Re
         text::write_tally(&tally, out)?;
     }
     Ok(tally)
+}
+
+/// The source that is named, if one is.
+fn only(arguments: &Explain, options: &CaptureOptions) -> posewire::Result<Option<u16>> {
+    let Some(only) = arguments.part.only.as_deref() else {
+        return Ok(None);
+    };
+    let survey = Survey::of(&arguments.file, options)?;
+    let source = survey.choose(&arguments.file, Some(only))?;
+    Ok(Some(source.number))
+}
+
+fn is_in_time(part: &Part, since: Duration) -> bool {
+    part.from.is_none_or(|from| since >= from) && part.until.is_none_or(|until| since < until)
 }
 
 /// A datagram and when it came.

@@ -22,14 +22,29 @@ pub(super) fn is_one(path: &Path) -> bool {
 }
 
 /// Only recordings can be recovered.
-pub(super) fn refuse(arguments: &Inspect) -> Result<(), Usage> {
+pub(super) fn refuse(arguments: &Inspect) -> anyhow::Result<()> {
     if !arguments.recovery.recover {
         return Ok(());
     }
-    Err(Usage {
-        problem: format!("--recover is for recordings, {} is none", arguments.file.display()),
-        help: "--salvage uses a damaged take up to the damage".to_owned(),
-    })
+    let path = arguments.file.as_path();
+    let mut beginning = Vec::new();
+    File::open(path)
+        .and_then(|file| file.take(MAGIC.len() as u64).read_to_end(&mut beginning))
+        .map_err(|error| posewire::Error::read(path, &error))?;
+    let name = path.display();
+    let help = if beginning.starts_with(b"<") || name.to_string().contains(".mvnx") {
+        "--salvage uses a damaged take up to the damage"
+    } else {
+        "give a file that posewire record has written"
+    };
+    let problem = if beginning.is_empty() {
+        format!("{name} is empty: there is nothing to recover")
+    } else {
+        let beginning = beginning.escape_ascii();
+        format!("--recover is for recordings, {name} is none: it begins with \"{beginning}\"")
+    };
+    let help = help.to_owned();
+    Err(Usage { problem, help }.into())
 }
 
 pub(super) fn run(arguments: &Inspect) -> anyhow::Result<End> {
@@ -83,13 +98,25 @@ fn recover_all(files: &[PathBuf], output: Option<&Path>) -> anyhow::Result<Vec<P
         if output.is_none() && !is_being_recorded(file) && Survey::of(file)?.complete {
             say(format_args!("{} is complete", file.display()));
         } else {
-            let recovered = recover(file, &to)?;
+            let recovered = recover(file, &to).map_err(refuse_existing)?;
             let messages = plural(recovered.messages, "message");
             say(format_args!("{messages} of {} are in {}", file.display(), to.display()));
         }
         whole.push(to);
     }
     Ok(whole)
+}
+
+/// There is no `--overwrite` here: a recording is recovered once.
+fn refuse_existing(error: posewire::Error) -> anyhow::Error {
+    match error {
+        posewire::Error::Exists { path } => Usage {
+            problem: format!("{} is there already", path.display()),
+            help: "choose another name; without -o the recording is completed in its place".to_owned(),
+        }
+        .into(),
+        error => error.into(),
+    }
 }
 
 /// `whole-002.mcap` for the second file of `whole.mcap`.

@@ -27,7 +27,7 @@ pub(super) fn playback(arguments: &Playback) -> Result<(), Usage> {
 /// What is no capture has no sources to choose from, and no part ends before it begins.
 pub(in crate::command) fn capture(arguments: &Capture, source: &Endpoint) -> Result<(), Usage> {
     if matches!(source, Endpoint::Capture { .. }) {
-        return arguments.check();
+        return arguments.part.check();
     }
     match arguments.given().into_iter().find(|(_, is_given)| *is_given) {
         None => Ok(()),

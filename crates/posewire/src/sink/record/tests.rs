@@ -204,7 +204,7 @@ fn no_file_of_a_recording_replaces_one_that_is_recorded_anew() {
     let source: Endpoint = path.to_str().unwrap().parse().unwrap();
     let create = |to: &Path, split| {
         let options = RecordOptions { split, overwrite: true };
-        RecordSink::create(to, &[source.clone()], options, Stop::new())
+        RecordSink::create(to, std::slice::from_ref(&source), options, Stop::new())
     };
     for to in [&path, &link] {
         let expected = Error::OntoItself { path: to.clone() };

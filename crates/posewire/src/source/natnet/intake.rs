@@ -245,8 +245,13 @@ impl<'a> Intake<'a> {
 
     fn connected(&mut self, server: SocketAddr, info: ServerInfo) {
         self.peer = advice::named(server, &info);
-        self.notice(Notice::Connected {
-            peer: self.peer.clone(),
+        let peer = self.peer.clone();
+        self.notice(match self.time {
+            Timeline::Live(_) => Notice::Connected { peer },
+            // Nobody is there who could be connected to.
+            Timeline::Played(_) => Notice::Remark {
+                text: format!("read as {peer}"),
+            },
         });
         self.silence = Silence::begin();
         let better = advice::better(&self.address, &info);
