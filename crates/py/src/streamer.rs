@@ -88,15 +88,17 @@ fn subject(id: u32, name: &str, skeleton: &posewire_motion::Skeleton, rate: f64)
     })
 }
 
+type Sinks = Vec<Box<dyn Sink>>;
+
 /// Opens the sinks, and tells where they send to.
 fn open(
     urls: &[String],
     subjects: &[Arc<Subject>],
     options: MxtpSinkOptions,
     rate: f64,
-) -> posewire::Result<(Vec<Box<dyn Sink>>, Vec<String>)> {
+) -> posewire::Result<(Sinks, Vec<String>)> {
     let mut mxtp = Vec::new();
-    let mut sinks: Vec<Box<dyn Sink>> = Vec::new();
+    let mut sinks = Sinks::new();
     let mut progress = Vec::new();
     for url in urls {
         let target = url.parse::<Endpoint>()?;
@@ -120,7 +122,7 @@ fn open(
     }
     let targets = progress.iter().flat_map(|progress| {
         let progress = progress.lock().unwrap_or_else(PoisonError::into_inner);
-        let endpoints = progress.targets.iter().map(|target| target.endpoint.to_string());
+        let endpoints = progress.targets.iter().map(|target| target.endpoint.clone());
         endpoints.collect::<Vec<_>>()
     });
     let targets = targets.collect();
@@ -244,9 +246,11 @@ impl Streamer {
 
     /// Sends what is on its way and ends it.
     fn close(&self, py: Python<'_>) -> PyResult<()> {
-        let running = self.lock().take();
-        let Some(running) = running else { return Ok(()) };
-        py.detach(|| finish(running)).map_err(|error| raised(&error))
+        let finished = py.detach(|| {
+            let running = self.lock().take();
+            running.map_or(Ok(()), finish)
+        });
+        finished.map_err(|error| raised(&error))
     }
 
     fn __enter__(this: Py<Self>) -> Py<Self> {
