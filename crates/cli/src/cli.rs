@@ -44,8 +44,8 @@ Where motion comes from and goes to:
   mxtp+tcp://HOST[:9763]    MXTP over TCP; stream connects and monitor listens, as with MVN
                             ?mode=listen and ?mode=connect turn that round
   natnet://HOST[:1510]      NatNet, as Motive serves it; as a target, be Motive: natnet://0.0.0.0
-                            ?mode=multicast sends to a group; ?version=3.1 asks for a bitstream, or sends
-                            no newer one; also data-port, group, interface, up=z, skeleton=local,
+                            ?mode=multicast sends to a group; ?version=3.1 asks for a bitstream, or
+                            sends no newer one; also data-port, group, interface, up=z, skeleton=local,
                             and of a target copy=true for clients that listen only at the data port
   synthetic:walk            people made up on the spot, or with all that can be said of them:
                             \"synthetic:walk?people=2&rate=240&props=1&fingers=true\"

@@ -22,9 +22,9 @@ Formats, and the axes and unit that their tools expect:
   npz             NumPy arrays: Z up, m, radians
   parquet         columns for DuckDB, Polars and Spark: Z up, m, degrees
   mcap, pcapng, pcap
-                  of recordings and captures: every datagram as it came, for posewire and Wireshark
+                  of recordings and captures: every datagram as it came, for Wireshark and for replay
 
-What a format cannot hold is said. A file appears whole or not at all; Ctrl-C leaves none behind, but a second one, which
+What a format cannot hold is said. A file appears whole or not at all; Ctrl-C leaves none behind, but a second one, which \
 waits for nothing, can leave a hidden .part file.
 docs/convert.md says what each file holds and how everything in it is named.
 

@@ -11,10 +11,10 @@ use std::path::PathBuf;
 #[command(
     disable_version_flag = true,
     after_help = "\
-The file holds one datagram, or several back to back: of MXTP as TCP carries them, of NatNet by the sizes they state.
+The file holds one datagram, or several back to back: of MXTP as TCP carries them, of NatNet by the sizes they state. \
 Of a recording (.mcap) or a capture (.pcap, .pcapng) each datagram is explained, with its time and its sender.
 
-No NatNet frame or description says which bitstream it is of. Without --version it is what a SERVERINFO in the same input
+No NatNet frame or description says which bitstream it is of. Without --version it is what a SERVERINFO in the same input \
 says, else the newest whose layout fits all of them.
 
 Examples:

@@ -4,7 +4,7 @@ use super::explain::Protocol;
 use clap::Args;
 use std::path::PathBuf;
 
-/// Say what a take, a recording or a capture holds, and with --verify whether a take agrees with itself.
+/// Say what a take, recording or capture holds, and with --verify whether its numbers agree.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 What --verify checks, and beyond what it says \"look at this\":

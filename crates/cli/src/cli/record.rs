@@ -14,10 +14,10 @@ Examples:
   posewire record mxtp://0.0.0.0 -o take.mcap                 until Ctrl-C
   posewire record mxtp://0.0.0.0 natnet://10.0.0.7 -o take.mcap --duration 60
   posewire record mxtp+tcp://0.0.0.0 -o take.mcap --split-size 500
-  posewire record mxtp://0.0.0.0 -o takes --remote 6004       takes that other programs begin and end
+  posewire record mxtp://0.0.0.0 -o takes --remote 6004       takes that others begin and end
 
-What has come is in the file a tenth of a second later. When this program or the machine dies, it can be
-read up to there, and posewire inspect take.mcap --recover completes it. Foxglove and other viewers of
+What has come is in the file a tenth of a second later. When this program or the machine dies, it can be \
+read up to there, and posewire inspect take.mcap --recover completes it. Foxglove and other viewers of \
 MCAP show the poses. With --split-size, take-002.mcap follows take.mcap.")]
 pub(crate) struct Record {
     /// Where to listen, or which NatNet server to connect to; as many as there are systems.

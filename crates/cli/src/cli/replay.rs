@@ -6,7 +6,7 @@ use clap::Args;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Send a recording or a capture again: the same bytes in the same order with the same gaps between them.
+/// Send a recording or a capture again: the same bytes in the same order with the same gaps.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -16,7 +16,7 @@ Examples:
   posewire replay motive.mcap --to natnet://0.0.0.0           be the Motive that was recorded
   posewire replay take.mcap --to mxtp://10.0.0.5 --faults loss=1%,seed=7
 
-MXTP goes to MXTP targets, NatNet frames to NatNet targets. In a loop the same bytes come again, so that
+MXTP goes to MXTP targets, NatNet frames to NatNet targets. In a loop the same bytes come again, so that \
 receivers see sample numbers start over.")]
 pub(crate) struct Replay {
     /// A recording (.mcap), or packets captured with tcpdump or Wireshark (.pcap, .pcapng).

@@ -15,7 +15,7 @@ Examples:
   posewire stream take.mvnx --to mxtp://192.168.1.20 --loop
   posewire stream take.mvnx --to mxtp+tcp://robot --types all
   posewire stream \"synthetic:walk?people=3\" --to \"mxtp://239.255.42.99?interface=eth0\"
-  posewire stream mxtp://0.0.0.0 --to mxtp://10.0.0.5 --to mxtp+tcp://10.0.0.6   pass on a live stream
+  posewire stream mxtp://0.0.0.0 --to mxtp://10.0.0.5 --to mxtp+tcp://10.0.0.6   pass it on
   posewire stream take.mvnx --to natnet://0.0.0.0            be Motive to NatNet clients
   posewire stream take.mvnx --to \"natnet://0.0.0.0?mode=multicast&interface=eth0\"
   posewire stream natnet://10.0.0.7 --to mxtp://10.0.0.5     Motive's skeletons as MVN's characters

@@ -25,8 +25,8 @@ pub use format::{
     CONTINUED, END, FROM, KIND, NAME, POSES, RAW, RECORDING, REPEATED, SOURCE, SOURCE_RECORD, SUBJECT, SUBJECT_RECORD,
     TO, WIRE,
 };
-pub(crate) use lock::{Whereabouts, read_locked};
 pub use lock::is_being_recorded;
+pub(crate) use lock::{Whereabouts, read_locked};
 pub use recover::{Recovered, recover};
 pub use survey::{SenderSurvey, SourceSurvey, SubjectSurvey, Survey};
 pub use take_name::{NameError, TakeName};

@@ -194,7 +194,14 @@ fn each_file_of_a_split_recording_stands_alone() {
         writer.datagram(SourceId(0), &said(number, kind)).unwrap();
         writer.flush().unwrap();
     }
-    assert_eq!(writer.files(), 4);
+    let names = [
+        "take.mcap",
+        "take-003.mcap",
+        "take-004.mcap",
+        "take-005.mcap",
+        "take-006.mcap",
+    ];
+    assert_eq!(writer.files() as usize, names.len());
     writer.finish().unwrap();
 
     assert_eq!(
@@ -202,15 +209,13 @@ fn each_file_of_a_split_recording_stands_alone() {
         b"somebody else's"
     );
     let mut sequence = 0;
-    for (part, name) in ["take.mcap", "take-003.mcap", "take-004.mcap", "take-005.mcap"]
-        .into_iter()
-        .enumerate()
-    {
+    for (part, name) in names.into_iter().enumerate() {
         let path = folder.path().join(name);
+        assert!(fs::metadata(&path).unwrap().len() <= 20_000, "{name} is over the limit");
         let survey = Survey::of(&path).unwrap();
         assert!(survey.complete);
         assert_eq!(survey.about["part"], (part + 1).to_string());
-        assert_eq!(survey.continued, part < 3);
+        assert_eq!(survey.continued, part + 1 < names.len());
         assert_eq!(survey.sources[0].endpoint, "natnet://127.0.0.1:1510");
         let repeated: Vec<_> = messages(&path, "repeated").iter().map(|message| message.1).collect();
         assert_eq!(repeated, if part == 0 { vec![] } else { vec![3] });

@@ -1,6 +1,6 @@
 //! UDP to many, TCP both ways of connecting, and peers that come late, stall or go.
 
-use crate::harness::{Gathered, Receiver, over_udp, play, seconds, types};
+use crate::harness::{Gathered, Receiver, over_udp, play, play_first, seconds, types};
 use posewire::endpoint::Endpoint;
 use posewire::sink::MxtpSink;
 use posewire::source::PlaybackOptions;
@@ -85,11 +85,11 @@ fn a_receiver_connects_again_when_the_streamer_comes_back() {
     let sink = MxtpSink::open(&[listen], types("02,12,13")).unwrap();
     let ours = sink.progress().lock().unwrap().targets[0].endpoint.clone();
     let receiver = Receiver::start(&ours.replace("listen", "connect"));
-    let mut sent = play(walk, &seconds(0.5), sink).frames;
+    play_first(walk, 300, sink);
     let again = MxtpSink::open(&[ours.parse().unwrap()], types("02,12,13")).unwrap();
-    sent += play(walk, &seconds(0.5), again).frames;
+    play_first(walk, 300, again);
 
-    let gathered = receiver.finish(sent);
+    let gathered = receiver.finish(600);
     let pose = &gathered.statistics_of(0, MessageType::QUATERNION).counters;
     assert_eq!((pose.received, pose.missing, pose.reset), (600, 0, 1));
 }
