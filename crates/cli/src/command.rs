@@ -12,7 +12,6 @@ mod stream;
 mod view;
 
 use crate::cli::Command;
-use std::process::ExitCode;
 
 /// How a verb ended that did not fail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,12 +30,12 @@ impl End {
         if lost == 0 { Self::Done } else { Self::LostData }
     }
 
-    pub(crate) fn exit_code(self) -> ExitCode {
-        ExitCode::from(match self {
+    pub(crate) fn exit_code(self) -> u8 {
+        match self {
             Self::Done => 0,
             Self::LostData => 3,
             Self::Broken => 1,
-        })
+        }
     }
 }
 

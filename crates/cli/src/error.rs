@@ -1,7 +1,6 @@
 //! Failures as the user sees them: what went wrong, and what to do about it.
 
 use std::io::Write;
-use std::process::ExitCode;
 
 /// Arguments that do not fit together, found only after parsing.
 #[derive(Debug, thiserror::Error)]
@@ -20,9 +19,9 @@ pub(crate) struct Failure {
 }
 
 /// Prints `error:` and `help:` lines and gives the exit code: 2 for wrong arguments, else 1.
-pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
+pub(crate) fn report(error: &anyhow::Error) -> u8 {
     if is_closed_pipe(error) {
-        return ExitCode::SUCCESS;
+        return 0;
     }
     if let Some(error) = error.downcast_ref::<std::io::Error>() {
         return report(&posewire::Error::write("the standard output", error).into());
@@ -47,7 +46,7 @@ pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
         "help: {}",
         help.unwrap_or_else(|| "posewire --help lists what can be done".to_owned())
     );
-    ExitCode::from(if usage { 2 } else { 1 })
+    if usage { 2 } else { 1 }
 }
 
 /// What to do about a failure of the browser page, if it is one.
@@ -63,11 +62,11 @@ fn viewer_help(_: &anyhow::Error) -> Option<String> {
 
 /// Prints what the parsing of the arguments ended with: the help or version that was asked for, else what is wrong with
 /// them, which ends with a `help:` line as every error does.
-pub(crate) fn report_parsing(answer: &clap::Error) -> ExitCode {
+pub(crate) fn report_parsing(answer: &clap::Error) -> u8 {
     if !answer.use_stderr() {
         // When the reader of a help has seen enough there is nobody to be told.
         let _ = answer.print();
-        return ExitCode::SUCCESS;
+        return 0;
     }
     let text = answer.render().to_string();
     let text = text.trim_end();
@@ -76,7 +75,7 @@ pub(crate) fn report_parsing(answer: &clap::Error) -> ExitCode {
         std::io::stderr().lock(),
         "{problem}\n\nhelp: --help after a verb explains its arguments, alone it lists the verbs"
     );
-    ExitCode::from(2)
+    2
 }
 
 /// The reader of our output has seen enough, as `head` does.

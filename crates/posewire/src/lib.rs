@@ -57,7 +57,7 @@ pub mod stop;
 pub use datagram::{Datagram, Wire};
 pub use error::{Error, Result};
 pub use item::{Item, Notice, SourceId};
-pub use session::{Outcome, Session};
+pub use session::{Feed, Outcome, Session};
 pub use sink::{Sink, Wants};
 pub use source::Source;
 

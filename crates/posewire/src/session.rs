@@ -17,9 +17,24 @@ use std::time::{Duration, Instant};
 pub struct Session {
     stop: Stop,
     sources: Vec<JoinHandle<Result<()>>>,
-    sinks: Vec<JoinHandle<Result<u64>>>,
-    /// What the queue of each sink has dropped.
+    sinks: RunningSinks,
+}
+
+/// Sinks, each on its thread.
+#[derive(Debug)]
+struct RunningSinks {
+    threads: Vec<JoinHandle<Result<u64>>>,
+    /// What the queue of each has dropped.
     drops: Vec<Arc<AtomicU64>>,
+}
+
+impl RunningSinks {
+    /// Starts them and gives the ways to them.
+    fn start(sinks: Vec<Box<dyn Sink>>, stop: &Stop) -> (Vec<Feeder>, Self) {
+        let (feeders, threads): (Vec<_>, _) = sinks.into_iter().map(|sink| start_sink(sink, stop.clone())).unzip();
+        let drops = feeders.iter().map(|feeder: &Feeder| feeder.producer.drops()).collect();
+        (feeders, Self { threads, drops })
+    }
 }
 
 /// How a session ended.
@@ -36,8 +51,7 @@ impl Session {
     /// The sinks know each source by its [`SourceId`], which is its place in `sources`; those beyond the 65,536th, which
     /// no machine has the ports for, are not started.
     pub fn start(sources: impl IntoIterator<Item = Source>, sinks: Vec<Box<dyn Sink>>, stop: Stop) -> Self {
-        let (feeders, sinks): (Vec<_>, _) = sinks.into_iter().map(|sink| start_sink(sink, stop.clone())).unzip();
-        let drops = feeders.iter().map(|feeder: &Feeder| feeder.producer.drops()).collect();
+        let (feeders, running) = RunningSinks::start(sinks, &stop);
         let sources: Vec<_> = (0..=u16::MAX).map(SourceId).zip(sources).collect();
         let alone = sources.len() == 1;
         let start = |(id, source): (SourceId, Source)| {
@@ -49,14 +63,47 @@ impl Session {
         Self {
             stop,
             sources,
-            sinks,
-            drops,
+            sinks: running,
         }
+    }
+
+    /// Starts sinks that the program itself feeds, without a source. They end when the [`Feed`] is dropped, when `stop` is set
+    /// and something is pushed, or when one of them fails.
+    ///
+    /// ```
+    /// use posewire::sink::TakeSink;
+    /// use posewire::stop::Stop;
+    /// use posewire::{Item, Session};
+    /// use posewire_motion::{Frame, Skeleton, Subject};
+    /// use std::sync::Arc;
+    ///
+    /// let subject = Arc::new(Subject::new("Ada", Skeleton::standard(0, false)));
+    /// let take = TakeSink::default();
+    /// let (session, mut feed) = Session::fed(vec![Box::new(take.clone())], Stop::new());
+    /// feed.push([Item::Frame { frame: Arc::new(Frame::new(subject)), due: None }]);
+    /// drop(feed);
+    /// session.wait()?;
+    /// assert_eq!(take.frames(), 1);
+    /// # Ok::<(), posewire::Error>(())
+    /// ```
+    pub fn fed(sinks: Vec<Box<dyn Sink>>, stop: Stop) -> (Self, Feed) {
+        let (feeders, running) = RunningSinks::start(sinks, &stop);
+        let feed = Feed {
+            outlet: Outlet::new(SourceId(0), false, feeders),
+            stop: stop.clone(),
+        };
+        let session = Self {
+            stop,
+            sources: Vec::new(),
+            sinks: running,
+        };
+        (session, feed)
     }
 
     /// Items that the queue of this sink has dropped so far, known also while the sink is stuck; 0 for a sink that is not there.
     pub fn dropped(&self, sink: usize) -> u64 {
-        self.drops
+        self.sinks
+            .drops
             .get(sink)
             .map_or(0, |dropped| dropped.load(Ordering::Relaxed))
     }
@@ -73,10 +120,25 @@ impl Session {
     pub fn wait(self) -> Result<Outcome> {
         let sources: Vec<_> = self.sources.into_iter().map(join).collect();
         self.stop.stop();
-        let sinks: Vec<_> = self.sinks.into_iter().map(join).collect();
+        let sinks: Vec<_> = self.sinks.threads.into_iter().map(join).collect();
         let dropped = sinks.into_iter().sum::<Result<u64>>()?;
         let sources: Result<()> = sources.into_iter().collect();
         sources.map(|()| Outcome { dropped })
+    }
+}
+
+/// The way from the program into sinks that it feeds itself: [`Session::fed`]. The sinks know it as source 0.
+#[derive(Debug)]
+pub struct Feed {
+    outlet: Outlet,
+    stop: Stop,
+}
+
+impl Feed {
+    /// Hands items to every sink, after waiting for one that is behind; `false` when no sink is left or the session is to stop.
+    pub fn push(&mut self, items: impl IntoIterator<Item = Item>) -> bool {
+        items.into_iter().for_each(|item| self.outlet.push(item));
+        self.outlet.flush() && !self.stop.is_stopped()
     }
 }
 

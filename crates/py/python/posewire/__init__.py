@@ -1,0 +1,70 @@
+"""Motion capture as numpy arrays: Xsens MVN (MXTP, MVNX) and OptiTrack (NatNet), live and recorded.
+
+    take = posewire.read("walk.mvnx")
+    take.position                        # (samples, segments, 3), metres
+
+    with posewire.listen("mxtp://0.0.0.0:9763") as stream:
+        for frame in stream:
+            frame.orientation            # (segments, 4), w first
+
+Metres, radians, seconds; right-handed, X forward, Y left, Z up; quaternions w, x, y, z, all the identity in the T-pose; NaN where
+nothing was tracked.
+"""
+
+from ._errors import (
+    ClosedError,
+    DecodeError,
+    Error,
+    MissingError,
+    NetworkError,
+    OverflowError,
+    ReadError,
+    UsageError,
+    WriteError,
+)
+from ._posewire import (
+    Frame,
+    Recorder,
+    Saved,
+    Skeleton,
+    Stream,
+    Streamer,
+    Table,
+    Take,
+    __version__,
+    decode,
+    listen,
+    read,
+    read_all,
+    streamer,
+)
+
+__all__ = [
+    "ClosedError",
+    "DecodeError",
+    "Error",
+    "Frame",
+    "MissingError",
+    "NetworkError",
+    "OverflowError",
+    "ReadError",
+    "Recorder",
+    "Saved",
+    "Skeleton",
+    "Stream",
+    "Streamer",
+    "Table",
+    "Take",
+    "UsageError",
+    "WriteError",
+    "__version__",
+    "decode",
+    "listen",
+    "read",
+    "read_all",
+    "streamer",
+]
+
+#: The states of a live sample, by its age.
+LIVE, STALE, LOST = "LIVE", "STALE", "LOST"
+__all__ += ["LIVE", "LOST", "STALE"]

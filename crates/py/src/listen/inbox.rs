@@ -1,0 +1,217 @@
+//! What has arrived and not been taken yet.
+
+use crate::frame::{Arrival, Frame};
+use posewire::queue::Policy;
+use posewire::stats::Statistics;
+use posewire::{Item, Notice, Result, Sink, SourceId};
+use posewire_motion::Stamp;
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant, SystemTime};
+
+/// How samples are kept, and for how long they are worth something.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Keeping {
+    /// The most samples that wait to be taken.
+    pub(super) capacity: usize,
+    pub(super) stale_after: Duration,
+    pub(super) lost_after: Duration,
+}
+
+/// Between the engine's thread, which puts samples in, and Python's, which take them out. Clones share it.
+#[derive(Clone)]
+pub(super) struct Inbox {
+    keeping: Keeping,
+    shared: Arc<Shared>,
+}
+
+#[derive(Default)]
+struct Shared {
+    held: Mutex<Held>,
+    /// A sample is there, or there will be no more.
+    changed: Condvar,
+}
+
+#[derive(Default)]
+struct Held {
+    waiting: VecDeque<Frame>,
+    /// The newest sample of each subject, and which of them is the newest of all.
+    newest: BTreeMap<(SourceId, u32), Frame>,
+    last: Option<(SourceId, u32)>,
+    /// Whether anybody has begun to take samples out one by one: before, old ones make room and nobody misses them.
+    is_read: bool,
+    dropped: u64,
+    /// Those of `dropped` that nobody has been told of.
+    untold: u64,
+    statistics: BTreeMap<SourceId, Arc<Statistics>>,
+    notices: VecDeque<String>,
+    sleepers: usize,
+    ended: bool,
+}
+
+impl Inbox {
+    pub(super) fn new(keeping: Keeping) -> Self {
+        let shared = Arc::default();
+        Self { keeping, shared }
+    }
+
+    /// The oldest sample that nobody has taken.
+    pub(super) fn take(&self) -> Option<Frame> {
+        let mut held = self.lock();
+        held.is_read = true;
+        held.waiting.pop_front()
+    }
+
+    /// The newest sample, of all subjects or of one by its name.
+    pub(super) fn newest(&self, subject: Option<&str>) -> Option<Frame> {
+        let held = self.lock();
+        let Some(subject) = subject else {
+            return held.newest.get(held.last.as_ref()?).cloned();
+        };
+        let of_name = |frame: &&Frame| frame.frame.subject.name == subject;
+        let at = |frame: &&Frame| frame.arrival.map(|arrival| arrival.at);
+        held.newest.values().filter(of_name).max_by_key(at).cloned()
+    }
+
+    /// Waits no longer than told until a sample can be taken or none will come.
+    pub(super) fn wait(&self, longest: Duration) -> bool {
+        self.wait_until(longest, |held| !held.waiting.is_empty())
+    }
+
+    /// Waits no longer than told until there is a newest sample of a subject, or none will come.
+    pub(super) fn wait_for_newest(&self, subject: Option<&str>, longest: Duration) -> bool {
+        self.wait_until(longest, |held| match subject {
+            None => held.last.is_some(),
+            Some(subject) => held.newest.values().any(|frame| frame.frame.subject.name == subject),
+        })
+    }
+
+    fn wait_until(&self, longest: Duration, is_there: impl Fn(&Held) -> bool) -> bool {
+        let mut held = self.lock();
+        held.sleepers += 1;
+        let waits = |held: &mut Held| !is_there(held) && !held.ended;
+        let waited = self.shared.changed.wait_timeout_while(held, longest, waits);
+        let (mut held, timeout) = waited.unwrap_or_else(PoisonError::into_inner);
+        held.sleepers -= 1;
+        !timeout.timed_out()
+    }
+
+    /// Whether no sample will come any more; some may wait to be taken.
+    pub(super) fn has_ended(&self) -> bool {
+        self.lock().ended
+    }
+
+    /// Samples that found no room since they are taken one by one.
+    pub(super) fn dropped(&self) -> u64 {
+        self.lock().dropped
+    }
+
+    /// Those of them that nobody has been told of; told by this.
+    pub(super) fn tell_dropped(&self) -> u64 {
+        std::mem::take(&mut self.lock().untold)
+    }
+
+    /// Names of the subjects that were heard of.
+    pub(super) fn subjects(&self) -> Vec<String> {
+        let held = self.lock();
+        let names = held.newest.values().map(|frame| frame.frame.subject.name.clone());
+        names.collect()
+    }
+
+    /// The newest statistics of each source.
+    pub(super) fn statistics(&self) -> Vec<Arc<Statistics>> {
+        self.lock().statistics.values().cloned().collect()
+    }
+
+    /// What the sources had to say, the newest last.
+    pub(super) fn notices(&self) -> Vec<String> {
+        self.lock().notices.iter().cloned().collect()
+    }
+
+    /// Ends all waiting.
+    pub(super) fn end(&self) {
+        self.lock().ended = true;
+        self.shared.changed.notify_all();
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Held> {
+        self.shared.held.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn keep(&self, source: SourceId, frame: &Arc<posewire_motion::Frame>) {
+        let arrived = Frame {
+            frame: Arc::clone(frame),
+            arrival: Some(Arrival {
+                at: arrived(frame.received),
+                stale_after: self.keeping.stale_after,
+                lost_after: self.keeping.lost_after,
+            }),
+        };
+        let mut held = self.lock();
+        let subject = (source, frame.subject.id);
+        held.newest.insert(subject, arrived.clone());
+        held.last = Some(subject);
+        held.add(arrived, self.keeping.capacity);
+        let sleepers = held.sleepers;
+        drop(held);
+        if sleepers > 0 {
+            self.shared.changed.notify_all();
+        }
+    }
+}
+
+impl Held {
+    fn add(&mut self, frame: Frame, capacity: usize) {
+        if self.waiting.len() < capacity {
+            self.waiting.push_back(frame);
+        } else if self.is_read {
+            self.dropped += 1;
+            self.untold += 1;
+        } else {
+            self.waiting.pop_front();
+            self.waiting.push_back(frame);
+        }
+    }
+
+    fn note(&mut self, notice: &Notice) {
+        if self.notices.len() == MOST_NOTICES {
+            self.notices.pop_front();
+        }
+        self.notices.push_back(notice.to_string());
+    }
+}
+
+impl Sink for Inbox {
+    fn queue(&self) -> (Policy, usize) {
+        // What waits for Python waits in the inbox; this is for a thread that the system lets wait.
+        (Policy::Lossless, self.keeping.capacity.max(1024))
+    }
+
+    fn accept(&mut self, source: SourceId, item: &Item) -> Result<()> {
+        match item {
+            Item::Frame { frame, .. } => self.keep(source, frame),
+            Item::Statistics(statistics) => {
+                self.lock().statistics.insert(source, Arc::clone(statistics));
+            }
+            Item::Notice(notice) => self.lock().note(notice),
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn finish(&mut self) -> Result<()> {
+        self.end();
+        Ok(())
+    }
+}
+
+/// When a sample arrived, by the clock that nobody sets: now, less what has passed since the kernel had it. What is longer ago
+/// than a second, or to come, is of a recording or of a clock that was set.
+fn arrived(received: Option<Stamp>) -> Instant {
+    let now = Instant::now();
+    let ago = received.map(|received| Stamp::from(SystemTime::now()).since(received));
+    let ago = ago.filter(|ago| *ago < Duration::from_secs(1)).unwrap_or_default();
+    now.checked_sub(ago).unwrap_or(now)
+}
+
+const MOST_NOTICES: usize = 100;

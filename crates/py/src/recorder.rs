@@ -1,0 +1,116 @@
+//! Recordings of live streams.
+
+use crate::error::{raised, usage};
+use posewire::sink::{RecordOptions, RecordProgress, RecordSink};
+use posewire::source::PlaybackOptions;
+use posewire::stop::Stop;
+use posewire::{Session, Source};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Records live streams into an MCAP file from the moment it is made: every datagram as it came, and the poses in them.
+///
+/// `split_megabytes` begins another file when one is as large. Use it as a context manager, or close it: what has come is in the
+/// file a tenth of a second later in any case.
+///
+/// Raises WriteError when the file is there and `overwrite` is not set, or cannot be written; NetworkError and UsageError for urls.
+#[pyclass(frozen, module = "posewire")]
+pub(crate) struct Recorder {
+    urls: Vec<String>,
+    progress: Arc<Mutex<RecordProgress>>,
+    stop: Stop,
+    session: Mutex<Option<Session>>,
+}
+
+#[pymethods]
+impl Recorder {
+    #[new]
+    #[pyo3(signature = (*urls, path, overwrite = false, split_megabytes = None))]
+    fn new(
+        py: Python<'_>,
+        urls: &Bound<'_, PyTuple>,
+        path: PathBuf,
+        overwrite: bool,
+        split_megabytes: Option<u64>,
+    ) -> PyResult<Self> {
+        let urls = urls.extract::<Vec<String>>()?;
+        if urls.is_empty() {
+            return Err(usage(
+                "expected what to record, found nothing",
+                "as in Recorder(\"mxtp://0.0.0.0:9763\", path=\"take.mcap\")",
+            ));
+        }
+        let options = RecordOptions {
+            split: split_megabytes.map(|megabytes| megabytes.saturating_mul(1_000_000)),
+            overwrite,
+        };
+        py.detach(|| start(&urls, &path, options))
+            .map_err(|error| raised(&error))
+    }
+
+    /// Where it listens, with the ports that the system chose.
+    #[getter]
+    fn urls(&self) -> Vec<String> {
+        self.urls.clone()
+    }
+
+    /// How far it has come: a dict of file, files, bytes, datagrams, frames, lost (on this machine) and failure.
+    fn progress<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let progress = self.progress.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let told = PyDict::new(py);
+        told.set_item("file", &progress.file)?;
+        told.set_item("files", progress.files)?;
+        told.set_item("bytes", progress.bytes)?;
+        told.set_item("datagrams", progress.datagrams())?;
+        told.set_item("frames", progress.frames())?;
+        told.set_item("lost", progress.lost())?;
+        told.set_item("failure", progress.failure.as_ref().map(ToString::to_string))?;
+        Ok(told)
+    }
+
+    /// Completes the file and ends it. Raises what kept it from being written.
+    fn close(&self, py: Python<'_>) -> PyResult<()> {
+        self.stop.stop();
+        let session = self.session.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let Some(session) = session else { return Ok(()) };
+        py.detach(|| session.wait()).map(drop).map_err(|error| raised(&error))
+    }
+
+    fn __enter__(this: Py<Self>) -> Py<Self> {
+        this
+    }
+
+    #[pyo3(signature = (*_raised))]
+    fn __exit__(&self, py: Python<'_>, _raised: &Bound<'_, PyTuple>) -> PyResult<()> {
+        self.close(py)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<posewire.Recorder of {}>", self.urls.join(", "))
+    }
+}
+
+fn start(urls: &[String], path: &std::path::Path, options: RecordOptions) -> posewire::Result<Recorder> {
+    let open = |url: &String| Source::open(&url.parse()?, &PlaybackOptions::default());
+    let sources = urls.iter().map(open).collect::<posewire::Result<Vec<_>>>()?;
+    let endpoints: Vec<_> = sources.iter().map(|source| source.endpoint().clone()).collect();
+    let stop = Stop::new();
+    let sink = RecordSink::create(path, &endpoints, options, stop.clone())?;
+    Ok(Recorder {
+        urls: endpoints.iter().map(ToString::to_string).collect(),
+        progress: sink.progress(),
+        session: Mutex::new(Some(Session::start(sources, vec![Box::new(sink)], stop.clone()))),
+        stop,
+    })
+}
+
+impl Drop for Recorder {
+    fn drop(&mut self) {
+        self.stop.stop();
+        let session = self.session.get_mut().unwrap_or_else(PoisonError::into_inner).take();
+        // So that the file is complete when Python ends; the threads need nothing of Python, and there is nobody to be told.
+        let _ = session.map(Session::wait);
+    }
+}

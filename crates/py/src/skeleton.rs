@@ -1,0 +1,89 @@
+//! Segments and joints, by name.
+
+use crate::array;
+use posewire_motion::Subject;
+use pyo3::prelude::*;
+use std::sync::Arc;
+
+/// The segments of a subject and how they hang together.
+#[pyclass(frozen, module = "posewire")]
+#[derive(Clone)]
+pub(crate) struct Skeleton {
+    pub(crate) subject: Arc<Subject>,
+}
+
+#[pymethods]
+impl Skeleton {
+    /// MVN's skeleton: 23 body segments and 22 joints, then `props` props, then, with `fingers`, 20 segments of each hand.
+    #[staticmethod]
+    #[pyo3(signature = (props = 0, fingers = false))]
+    fn standard(props: u8, fingers: bool) -> Self {
+        let skeleton = posewire_motion::Skeleton::standard(props.into(), fingers);
+        let subject = Arc::new(Subject::new("", skeleton));
+        Self { subject }
+    }
+
+    /// Names of the segments, in the order of the arrays.
+    #[getter]
+    fn segments(&self) -> Vec<&str> {
+        let segments = self.subject.skeleton.segments.iter();
+        segments.map(|segment| segment.name.as_str()).collect()
+    }
+
+    /// Per segment: the place of the one that it hangs on, None for the root and for what hangs on nothing.
+    #[getter]
+    fn parents(&self) -> Vec<Option<usize>> {
+        self.subject
+            .skeleton
+            .segments
+            .iter()
+            .map(|segment| segment.parent)
+            .collect()
+    }
+
+    /// Names of the joints, in the order of the joint angles.
+    #[getter]
+    fn joints(&self) -> Vec<&str> {
+        let joints = self.subject.skeleton.joints.iter();
+        joints.map(|joint| joint.name.as_str()).collect()
+    }
+
+    /// Names of the ergonomic angles.
+    #[getter]
+    fn ergonomic_angles(&self) -> Vec<&str> {
+        let angles = self.subject.skeleton.ergonomic_angles.iter();
+        angles.map(|angle| angle.name.as_str()).collect()
+    }
+
+    /// Per motion tracker: the name of the segment that wears it.
+    #[getter]
+    fn sensors(&self) -> Vec<&str> {
+        let skeleton = &self.subject.skeleton;
+        posewire_motion::Section::SensorOrientation.labels(skeleton).collect()
+    }
+
+    /// Names of the foot contacts.
+    #[getter]
+    fn contacts(&self) -> Vec<&str> {
+        self.subject.skeleton.contacts.iter().map(String::as_str).collect()
+    }
+
+    /// Per segment: its origin in the T-pose, metres, an array (segments, 3); NaN where it is not known.
+    #[getter]
+    fn origins<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let segments = &self.subject.skeleton.segments;
+        let origins = segments.iter().map(|segment| segment.origin);
+        let numbers = origins.flat_map(|origin| origin.map_or([f64::NAN; 3], |origin| origin.to_array()));
+        array::owned(py, [segments.len(), 3], numbers.collect())
+    }
+
+    fn __len__(&self) -> usize {
+        self.subject.skeleton.segments.len()
+    }
+
+    fn __repr__(&self) -> String {
+        let skeleton = &self.subject.skeleton;
+        let (segments, joints) = (skeleton.segments.len(), skeleton.joints.len());
+        format!("<posewire.Skeleton: {segments} segments, {joints} joints>")
+    }
+}

@@ -1,0 +1,182 @@
+//! Takes to files.
+
+use crate::error::{raised, usage};
+use crate::section::named;
+use crate::take::Take;
+use crate::wait::working;
+use posewire::endpoint::FileFormat;
+use posewire::file::{Axes, Progress, Target, WriteOptions, save};
+use posewire::stop::Stop;
+use posewire_motion::{Section, Unit};
+use posewire_mvnx::Version;
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::borrow::Cow;
+use std::path::PathBuf;
+
+/// What `Take.write` has written.
+#[pyclass(frozen, get_all, module = "posewire")]
+#[derive(Clone)]
+pub(crate) struct Saved {
+    /// The files, as strings.
+    files: Vec<PathBuf>,
+    /// Bytes of all of them.
+    bytes: u64,
+    /// What the format could not hold, thing by thing.
+    left_out: Vec<String>,
+    /// The sections that the take lacked and that were computed from its poses.
+    computed: Vec<String>,
+}
+
+#[pymethods]
+impl Saved {
+    fn __repr__(&self) -> String {
+        let files: Vec<_> = self.files.iter().map(|path| path.display().to_string()).collect();
+        format!("<posewire.Saved {}: {} bytes>", files.join(", "), self.bytes)
+    }
+}
+
+/// Writes a take as keyword arguments of Python say: see `Take.write`.
+pub(crate) fn write(
+    py: Python<'_>,
+    take: &Take,
+    path: PathBuf,
+    overwrite: bool,
+    progress: Option<&Py<PyAny>>,
+    keywords: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Saved> {
+    let mut asked = Asked::default();
+    for (name, value) in keywords.into_iter().flatten() {
+        asked.take(&name.extract::<String>()?, &value)?;
+    }
+    let format = match asked.format {
+        Some(format) => Ok(format),
+        None => FileFormat::of(&path.to_string_lossy()),
+    };
+    let target = Target {
+        path,
+        format: format.map_err(|error| raised(&error))?,
+        overwrite,
+    };
+    let stop = Stop::new();
+    let counted = Progress::new(stop.clone());
+    let saved = working(
+        py,
+        &stop,
+        || take.save(&target, &asked, &counted),
+        || {
+            let Some(progress) = progress else { return Ok(()) };
+            progress.call1(py, (counted.done(), counted.total())).map(drop)
+        },
+    );
+    saved?.map_err(|error| raised(&error))
+}
+
+/// How a take is to be written, and what is done to it before.
+#[derive(Default)]
+struct Asked {
+    format: Option<FileFormat>,
+    first: Option<u32>,
+    last: Option<u32>,
+    rate: Option<f64>,
+    options: WriteOptions,
+}
+
+impl Asked {
+    /// Takes a keyword argument; None is as if it were left out.
+    fn take(&mut self, name: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
+        if value.is_none() {
+            return Ok(());
+        }
+        let options = &mut self.options;
+        match name {
+            "format" => {
+                let format = value.extract::<String>()?.parse();
+                self.format = Some(format.map_err(|error| raised(&error))?);
+            }
+            "first" => self.first = Some(value.extract()?),
+            "last" => self.last = Some(value.extract()?),
+            "rate" => self.rate = Some(value.extract()?),
+            "axes" => options.axes = Some(axes_named(value.extract()?)?),
+            "unit" => options.unit = Some(unit_named(value.extract()?)?),
+            "sections" => options.sections = Some(named(&value.extract::<Vec<String>>()?)?),
+            "mvnx_version" => options.mvnx.version = Some(version(value.extract()?)?),
+            "csv_sheets" => options.csv.file_per_section = value.extract()?,
+            "bvh_translations" => options.bvh.translations = value.extract()?,
+            "bvh_t_pose" => options.bvh.first_frame_is_t_pose = value.extract()?,
+            "micro_units" => options.parquet.micro_units = value.extract()?,
+            _ => return Err(PyTypeError::new_err(format!("write() has no argument {name:?}"))),
+        }
+        Ok(())
+    }
+}
+
+impl Take {
+    fn save(&self, target: &Target, asked: &Asked, progress: &Progress) -> posewire::Result<Saved> {
+        let options = &asked.options;
+        options.check(target.format)?;
+        target.check(options)?;
+        let mut recording = Cow::Borrowed(&*self.recording);
+        if asked.first.is_some() || asked.last.is_some() {
+            let samples = asked.first.unwrap_or(0)..=asked.last.unwrap_or(u32::MAX);
+            recording.to_mut().cut(&samples)?;
+        }
+        let wanted = self.wanted(target.format, options);
+        let computed = if wanted.iter().any(|section| recording.take.column(*section).is_none()) {
+            recording.to_mut().complete(&wanted)
+        } else {
+            Vec::new()
+        };
+        if let Some(rate) = asked.rate {
+            recording.to_mut().resample(rate)?;
+        }
+        let saved = save(target, &recording, options, progress)?;
+        Ok(Saved {
+            bytes: saved.files.iter().map(|(_, bytes)| bytes).sum(),
+            files: saved.files.into_iter().map(|(path, _)| path).collect(),
+            left_out: saved.left_out.iter().map(str::to_owned).collect(),
+            computed: computed.into_iter().map(|section| section.to_string()).collect(),
+        })
+    }
+
+    /// The sections that are computed where they are lacking, as `posewire convert` does.
+    fn wanted(&self, format: FileFormat, options: &WriteOptions) -> Vec<Section> {
+        match (&options.sections, format) {
+            (Some(sections), _) => sections.clone(),
+            (None, FileFormat::Mot) => vec![Section::JointAngles],
+            (None, FileFormat::Mvnx | FileFormat::MvnxGz) if self.received => Section::ALL.to_vec(),
+            (None, _) => Vec::new(),
+        }
+    }
+}
+
+fn axes_named(name: &str) -> PyResult<Axes> {
+    let all = [Axes::ZUp, Axes::YUp, Axes::Unity, Axes::Unreal];
+    all.into_iter().find(|axes| axes.name() == name).ok_or_else(|| {
+        usage(
+            format!("there are no axes {name:?}"),
+            "use \"z-up\", \"y-up\", \"unity\" or \"unreal\"",
+        )
+    })
+}
+
+fn unit_named(name: &str) -> PyResult<Unit> {
+    match name {
+        "m" => Ok(Unit::Metre),
+        "cm" => Ok(Unit::Centimetre),
+        "mm" => Ok(Unit::Millimetre),
+        _ => Err(usage(
+            format!("there is no unit {name:?}"),
+            "use \"m\", \"cm\" or \"mm\"",
+        )),
+    }
+}
+
+fn version(number: u8) -> PyResult<Version> {
+    match number {
+        3 => Ok(Version::V3),
+        4 => Ok(Version::V4),
+        _ => Err(usage(format!("there is no MVNX of version {number}"), "use 3 or 4")),
+    }
+}

@@ -1,0 +1,97 @@
+"""The package as a whole: its command, its types, its examples and its documents."""
+
+import ast
+import inspect
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+import pytest
+from conftest import ROOT
+
+import posewire
+
+EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
+DOCUMENTS = [ROOT / "docs/python.md", ROOT / "README.md", ROOT / "crates/py/README.md"]
+
+
+def run(*arguments, **options):
+    return subprocess.run([sys.executable, *arguments], capture_output=True, text=True, timeout=300, **options)
+
+
+def test_the_module_runs_the_command_line():
+    ended = run("-m", "posewire", "--version")
+    assert (ended.returncode, ended.stdout) == (0, f"posewire {posewire.__version__}\n")
+    assert run("-m", "posewire", "nonsense").returncode == 2
+
+
+def test_the_command_is_installed():
+    command = pathlib.Path(sys.executable).with_name("posewire")
+    ended = subprocess.run([command, "--version"], capture_output=True, text=True)
+    assert ended.stdout == f"posewire {posewire.__version__}\n"
+
+
+def test_an_interrupt_ends_the_command():
+    program = [sys.executable, "-m", "posewire", "monitor", "mxtp://127.0.0.1:0", "--json"]
+    with subprocess.Popen(program, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as monitor:
+        monitor.stdout.readline()
+        monitor.send_signal(2)
+        assert monitor.wait(timeout=60) == 0
+
+
+def test_importing_takes_numpy_alone():
+    loaded = run(
+        "-c", "import sys, numpy; before = set(sys.modules); import posewire; print(*set(sys.modules) - before)"
+    )
+    ours = {name.split(".")[0] for name in loaded.stdout.split()}
+    assert ours <= {"posewire", "__future__"}, ours
+
+
+def public(names):
+    return {name for name in names if not name.startswith("_")}
+
+
+def test_the_stubs_name_everything():
+    stubs = ast.parse((pathlib.Path(posewire.__file__).with_name("_posewire.pyi")).read_text())
+    described = {node.name: node for node in stubs.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
+    for name in posewire._posewire.__dict__.keys() & described.keys() | public(vars(posewire._posewire)):
+        assert name in described, name
+        thing = getattr(posewire._posewire, name)
+        if inspect.isclass(thing):
+            members = {node.name for node in described[name].body if isinstance(node, ast.FunctionDef)}
+            assert public(vars(thing)) == public(members), name
+            assert all(getattr(thing, member).__doc__ for member in public(vars(thing))), name
+        assert thing.__doc__, name
+
+
+def test_there_are_examples():
+    assert len(EXAMPLES) >= 4
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_examples_run(path, tmp_path):
+    for module in re.findall(r"^import (matplotlib|polars)", path.read_text(), re.M):
+        pytest.importorskip(module)
+    ended = run(str(path), cwd=tmp_path, env={**os.environ, "MPLBACKEND": "Agg"})
+    assert ended.returncode == 0, ended.stderr
+
+
+def blocks(document):
+    text = document.read_text()
+    return re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: "-".join(path.parts[-2:]))
+def test_documents_run_as_written(document, tmp_path, walk):
+    """All blocks of a document, one after the other, in a folder that has the takes they name."""
+    program = "\n".join(blocks(document))
+    assert program
+    for module in re.findall(r"^import (matplotlib|polars|pyarrow)", program, re.M):
+        pytest.importorskip(module)
+    (tmp_path / "takes").mkdir()
+    for name in ("walk.mvnx", "takes/one.mvnx", "takes/two.mvnx"):
+        walk.write(tmp_path / name, last=239)
+    ended = run("-c", program, cwd=tmp_path, env={**os.environ, "MPLBACKEND": "Agg"})
+    assert ended.returncode == 0, ended.stderr

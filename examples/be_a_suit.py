@@ -1,0 +1,43 @@
+"""Streams a simulator's own poses as a suit does, and sees them arrive.
+
+    python be_a_suit.py mxtp://192.168.1.20:9763
+
+Without a url it listens to itself.
+"""
+
+import sys
+import time
+
+import numpy as np
+
+import posewire
+
+RATE = 60
+
+
+def pose(skeleton, seconds):
+    """The T-pose, with the right forearm turning about the vertical axis."""
+    position = skeleton.origins.copy()
+    orientation = np.tile([1.0, 0.0, 0.0, 0.0], (len(skeleton), 1))
+    half = seconds * np.pi / 4
+    orientation[skeleton.segments.index("RightForeArm")] = [np.cos(half), 0, 0, np.sin(half)]
+    return position, orientation
+
+
+def stream_to(url, seconds):
+    skeleton = posewire.Skeleton.standard()
+    with posewire.streamer(url, skeleton=skeleton, rate=RATE, names=["Robot"]) as streamer:
+        start = time.monotonic()
+        for sample in range(int(seconds * RATE)):
+            streamer.send(*pose(skeleton, sample / RATE))
+            time.sleep(max(0, start + (sample + 1) / RATE - time.monotonic()))
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1:
+        stream_to(sys.argv[1], seconds=3600)
+    else:
+        with posewire.listen("mxtp://127.0.0.1:0") as stream:
+            stream_to(stream.url, seconds=1)
+            frame = stream.latest(timeout=1)
+            print(frame.subject, frame.sample, frame.orientation[frame.segments.index("RightForeArm")])
