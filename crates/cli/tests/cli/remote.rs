@@ -181,6 +181,7 @@ fn takes_are_recorded_by_command_and_ctrl_c_ends_the_last() {
 #[test]
 fn takes_need_a_folder_and_replace_nothing() {
     let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("take.mcap"), "").unwrap();
     let refused = |arguments: &[&str]| {
         let record = ["record", "mxtp://127.0.0.1:0", "--remote", "0"];
         let ended = posewire(folder.path(), &[&record, arguments].concat(), b"");
