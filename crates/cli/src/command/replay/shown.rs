@@ -45,9 +45,9 @@ fn options(arguments: &Replay) -> PlaybackOptions {
         speed: arguments.again.speed,
         looped: arguments.again.looped,
         duration: arguments.duration,
-        only: arguments.again.capture.only.clone(),
-        from: arguments.again.capture.from.unwrap_or_default(),
-        until: arguments.again.capture.until,
+        only: arguments.again.capture.part.only.clone(),
+        from: arguments.again.capture.part.from.unwrap_or_default(),
+        until: arguments.again.capture.part.until,
         protocol: arguments.again.capture.protocol(),
         ..PlaybackOptions::default()
     }
