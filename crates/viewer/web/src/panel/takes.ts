@@ -3,7 +3,7 @@
 import { h } from '../dom/h';
 import { clock, count, hertz } from '../model/format';
 import type { Room } from '../model/room';
-import type { Take } from '../protocol/types';
+import { type Take, nameOf } from '../protocol/types';
 import type { Part } from './performers';
 
 /** `go` shows a frame of a take. */
@@ -15,14 +15,17 @@ export function takes(room: Room, go: (take: Take, frame: number) => void): Part
     if (shown === room.takes || room.takes.length === 0) return;
     shown = room.takes;
     element.hidden = false;
-    body.replaceChildren(...shown.map((take) => takeBlock(take, shown?.length === 1, go)));
+    body.replaceChildren(...shown.map((take) => takeBlock(take, room, go)));
   };
   return { element, refresh };
 }
 
-function takeBlock(take: Take, open: boolean, go: (take: Take, frame: number) => void): HTMLElement {
+function takeBlock(take: Take, room: Room, go: (take: Take, frame: number) => void): HTMLElement {
+  const subject = room.subject(take.subject);
   const name = h('span', { class: 'summary-name' }, take.file);
+  const whose = subject && room.takes.length > 1 ? `${nameOf(subject)}, ` : '';
   const facts = [
+    subject ? fact('Performer', nameOf(subject)) : null,
     fact('Frames', count(take.frames)),
     fact('Rate', hertz(take.rate_hz)),
     fact('Length', clock(take.duration_s, 1)),
@@ -30,7 +33,7 @@ function takeBlock(take: Take, open: boolean, go: (take: Take, frame: number) =>
   const block = h(
     'details',
     {},
-    h('summary', {}, name, h('span', { class: 'summary-note' }, note(take))),
+    h('summary', {}, name, h('span', { class: 'summary-note' }, `${whose}${note(take)}`)),
     h('dl', { class: 'facts' }, ...facts),
     places(
       take,
@@ -51,7 +54,7 @@ function takeBlock(take: Take, open: boolean, go: (take: Take, frame: number) =>
       go,
     ),
   );
-  block.open = open;
+  block.open = room.takes.length === 1;
   return block;
 }
 
