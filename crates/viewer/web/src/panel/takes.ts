@@ -1,6 +1,6 @@
 /** The files that are played: what they hold, and their markers and gaps to go to. */
 
-import { h } from '../dom/h';
+import { h, setText } from '../dom/h';
 import { clock, count, hertz } from '../model/format';
 import type { Room } from '../model/room';
 import { type Take, nameOf } from '../protocol/types';
@@ -9,15 +9,30 @@ import type { Part } from './performers';
 /** `go` shows a frame of a take. */
 export function takes(room: Room, go: (take: Take, frame: number) => void): Part {
   const body = h('div', { class: 'takes' });
-  const element = h('section', { class: 'block', hidden: true }, h('h2', {}, 'Takes'), body);
+  const below = h('p', { class: 'aside' });
+  const element = h('section', { class: 'block', hidden: true }, h('h2', {}, 'Takes'), body, below);
   let shown: Take[] | null = null;
   const refresh = (): void => {
-    if (shown === room.takes || room.takes.length === 0) return;
+    if (room.takes.length === 0) return;
+    setText(below, belowText(room));
+    if (shown === room.takes) return;
     shown = room.takes;
     element.hidden = false;
     body.replaceChildren(...shown.map((take) => takeBlock(take, room, go)));
   };
   return { element, refresh };
+}
+
+/** "Ada reaches 0.96 m below the floor in this frame.": a recording's floor need not be that of the stage. */
+function belowText(room: Room): string {
+  const lines = room.subjects.flatMap((subject) => {
+    const lowest = (room.records.get(subject.id)?.position ?? new Float32Array()).reduce(
+      (least, value, at) => (at % 3 === 2 && value < least ? value : least),
+      0,
+    );
+    return lowest < -BELOW ? [`${nameOf(subject)} reaches ${(-lowest).toFixed(2)} m below the floor in this frame.`] : [];
+  });
+  return lines.join(' ');
 }
 
 function takeBlock(take: Take, room: Room, go: (take: Take, frame: number) => void): HTMLElement {
@@ -104,6 +119,9 @@ function places(take: Take, title: string, all: Place[], go: (take: Take, frame:
 function fact(name: string, value: string): HTMLElement {
   return h('div', {}, h('dt', {}, name), h('dd', {}, value));
 }
+
+/** Metres below the floor that are no mere error of a suit. */
+const BELOW = 0.1;
 
 /** Markers and gaps that are listed of each take. */
 const SHOWN = 100;
