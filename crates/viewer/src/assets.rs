@@ -30,14 +30,17 @@ pub(crate) fn asset(path: &str) -> Option<Response> {
     Some((headers, bytes).into_response())
 }
 
-/// Gives an answer the headers that keep other sites away from it, and what it loads to this server.
-pub(crate) fn protect(response: &mut Response) {
+/// Gives an answer the headers that keep other sites away from it, and what it loads to this server. Browsers complain of
+/// one of them where they do not trust the connection, as plain HTTP to another machine.
+pub(crate) fn protect(response: &mut Response, is_trustworthy: bool) {
     let headers = response.headers_mut();
     headers.insert(CONTENT_SECURITY_POLICY, HeaderValue::from_static(POLICY));
     headers.insert(X_CONTENT_TYPE_OPTIONS, HeaderValue::from_static("nosniff"));
     headers.insert(REFERRER_POLICY, HeaderValue::from_static("no-referrer"));
     headers.insert(RESOURCE_POLICY, HeaderValue::from_static("same-origin"));
-    headers.insert(OPENER_POLICY, HeaderValue::from_static("same-origin"));
+    if is_trustworthy {
+        headers.insert(OPENER_POLICY, HeaderValue::from_static("same-origin"));
+    }
     headers
         .entry(CACHE_CONTROL)
         .or_insert(HeaderValue::from_static("no-store"));

@@ -1,8 +1,9 @@
-//! Connections: so many are served, the others are told that there is no room.
+//! Connections: those that find a place are served, the others are told that there is no room.
 
 use crate::counts::Counts;
 use crate::patience::Patient;
-use axum::Router;
+use crate::room::{Place, Room};
+use axum::{Extension, Router};
 use hyper::server::conn::http1;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
@@ -14,9 +15,6 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::{Semaphore, watch};
 use tokio::time::{sleep, timeout};
 
-/// The most connections that are served at a time. A page has one for its socket and some for a moment.
-pub(crate) const MOST_CONNECTIONS: usize = 64;
-
 /// Serves connections until `stop` is set. One that takes nothing for as long as `patience` is closed.
 pub(crate) async fn serve(
     listener: TcpListener,
@@ -25,22 +23,21 @@ pub(crate) async fn serve(
     patience: Duration,
     mut stop: watch::Receiver<bool>,
 ) {
-    let room = Arc::new(Semaphore::new(MOST_CONNECTIONS));
+    let room = Room::new(patience / 5);
     let refusing = Arc::new(Semaphore::new(MOST_REFUSALS));
     loop {
         let accepted = tokio::select! {
             accepted = listener.accept() => accepted,
             _ = stop.wait_for(|stop| *stop) => return,
         };
-        let Ok((stream, _)) = accepted else {
+        let Ok((stream, from)) = accepted else {
             // No more files can be opened: some will be closed.
             sleep(Duration::from_millis(100)).await;
             continue;
         };
-        if let Ok(place) = Arc::clone(&room).try_acquire_owned() {
-            let (router, counts) = (router.clone(), Arc::clone(&counts));
+        if let Some(place) = room.admit(from.ip()) {
             prepare(&stream);
-            tokio::spawn(serve_one(Patient::new(stream, patience, counts, place), router));
+            tokio::spawn(serve_one(stream, patience, Arc::clone(&counts), place, router.clone()));
         } else {
             counts.refused.connections.add(1);
             if let Ok(place) = Arc::clone(&refusing).try_acquire_owned() {
@@ -53,7 +50,10 @@ pub(crate) async fn serve(
     }
 }
 
-async fn serve_one(stream: Patient, router: Router) {
+async fn serve_one(stream: TcpStream, patience: Duration, counts: Arc<Counts>, place: Place, router: Router) {
+    let guest = place.guest();
+    let router = router.layer(Extension(place.guest()));
+    let stream = Patient::new(stream, patience, counts, place);
     let served = http1::Builder::new()
         .timer(TokioTimer::new())
         .header_read_timeout(HEAD_TIME)
@@ -61,7 +61,10 @@ async fn serve_one(stream: Patient, router: Router) {
         .serve_connection(TokioIo::new(stream), TowerToHyperService::new(router))
         .with_upgrades();
     // What goes wrong with a connection ends it, and is of no interest to others.
-    let _ = served.await;
+    tokio::select! {
+        _ = served => {}
+        () = guest.sent_away() => {}
+    }
 }
 
 /// A tick leaves at once, little is sent ahead of what a slow page can show, and who has vanished is noticed. None of it

@@ -58,11 +58,19 @@ pub enum Error {
 }
 
 impl Error {
-    /// What to do about it, where there is something to do.
+    /// What to do about it, where there is something to do, by `posewire view`.
     pub fn help(&self) -> Option<String> {
+        self.help_with("--listen ")
+    }
+
+    /// The same by a command whose option for the address is written so, as in `--view=`.
+    pub fn help_with(&self, option: &str) -> Option<String> {
+        let name = option.trim_end_matches([' ', '=']);
         match self {
-            Self::Listen { address, kind, .. } => Some(listen_help(*address, *kind)),
-            Self::Token { .. } => Some("serve it to this machine alone: leave the address of --listen out".into()),
+            Self::Listen { address, kind, .. } => Some(listen_help(*address, *kind, option)),
+            Self::Token { .. } => Some(format!(
+                "serve it to this machine alone: leave the address of {name} out"
+            )),
             Self::NoTake { .. } | Self::NoFrame { .. } | Self::NoChannel { .. } => {
                 Some("GET /api/scene lists the takes, their frames and channels".into())
             }
@@ -71,19 +79,20 @@ impl Error {
     }
 }
 
-fn listen_help(address: SocketAddr, kind: std::io::ErrorKind) -> String {
+fn listen_help(address: SocketAddr, kind: std::io::ErrorKind, option: &str) -> String {
     use std::io::ErrorKind;
+    let name = option.trim_end_matches([' ', '=']);
     let (host, port) = (address.ip(), address.port());
     match kind {
         ErrorKind::AddrInUse => format!(
             "another program, perhaps another posewire, has port {port}: `ss -ltnp 'sport = :{port}'` names it; stop it or \
-             choose another port, as in --listen {}",
+             choose another port, as in {option}{}",
             SocketAddr::new(host, port.wrapping_add(1).max(1024))
         ),
         ErrorKind::AddrNotAvailable => {
             format!("{host} is not an address of this machine: use one of its own, or 0.0.0.0 for all")
         }
-        ErrorKind::PermissionDenied => "ports below 1024 need privileges: choose a higher one with --listen".into(),
-        _ => "choose another address with --listen".into(),
+        ErrorKind::PermissionDenied => format!("ports below 1024 need privileges: choose a higher one with {name}"),
+        _ => format!("choose another address with {name}"),
     }
 }

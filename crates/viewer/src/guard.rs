@@ -6,7 +6,8 @@
 
 use crate::token::Token;
 use axum::http::header::{AUTHORIZATION, COOKIE, HOST, ORIGIN};
-use axum::http::{HeaderMap, HeaderName};
+use axum::http::uri::Authority;
+use axum::http::{HeaderMap, HeaderName, Uri};
 use std::net::{IpAddr, SocketAddr};
 
 /// Who is answered.
@@ -43,15 +44,24 @@ impl Guard {
         format!("posewire-{}", self.listening.port())
     }
 
-    /// Checks that a request names this host, once.
+    /// Checks that a request names this host, once; also where it asks for a whole address instead of a path.
     ///
     /// # Errors
     /// [`Refusal::Host`] when it does not.
-    pub(crate) fn check_host(&self, headers: &HeaderMap) -> Result<(), Refusal> {
+    pub(crate) fn check_host(&self, asked: &Uri, headers: &HeaderMap) -> Result<(), Refusal> {
         let host = only(headers, &HOST).ok_or(Refusal::Host)?;
-        let (name, port) = split_port(host).ok_or(Refusal::Host)?;
-        let is_ours = port == self.listening.port() && self.is_named(name);
+        let asked = asked.authority().map_or(host, Authority::as_str);
+        let is_ours = self.is_ours(host) && self.is_ours(asked);
         is_ours.then_some(()).ok_or(Refusal::Host)
+    }
+
+    /// Whether a request names this machine, which browsers trust without encryption.
+    pub(crate) fn is_of_this_machine(headers: &HeaderMap) -> bool {
+        let named = only(headers, &HOST).and_then(split_port);
+        named.is_some_and(|(name, _)| match address(name) {
+            Some(address) => address.is_loopback(),
+            None => name.eq_ignore_ascii_case("localhost"),
+        })
     }
 
     /// Checks that a request whose host is right comes from this server's page, where it says or has to say from which.
@@ -87,19 +97,28 @@ impl Guard {
         has.then_some(()).ok_or(Refusal::Token)
     }
 
+    fn is_ours(&self, host: &str) -> bool {
+        let named = split_port(host);
+        named.is_some_and(|(name, port)| port == self.listening.port() && self.is_named(name))
+    }
+
     /// Whether a host's name is one of this server's. Another site owns names and no addresses: any address that leads
     /// here is good where the server listens on all of them.
     fn is_named(&self, name: &str) -> bool {
-        let address = name.trim_start_matches('[').trim_end_matches(']').parse::<IpAddr>();
-        match address {
-            Ok(address) => {
-                let address = address.to_canonical();
+        match address(name) {
+            Some(address) => {
                 let listening = self.listening.ip().to_canonical();
                 address.is_loopback() || address == listening || listening.is_unspecified()
             }
-            Err(_) => name.eq_ignore_ascii_case("localhost"),
+            None => name.eq_ignore_ascii_case("localhost"),
         }
     }
+}
+
+/// The address that a host is named by, if it is one.
+fn address(name: &str) -> Option<IpAddr> {
+    let address = name.trim_start_matches('[').trim_end_matches(']').parse::<IpAddr>();
+    address.ok().map(|address| address.to_canonical())
 }
 
 /// The value of a header that is there once and is text.
@@ -164,7 +183,7 @@ mod tests {
             ("0.0.0.0:9780", "[::ffff:10.0.0.6]:9780", true),
             ("0.0.0.0:9780", "evil.example:9780", false),
         ] {
-            let found = guard(listening).check_host(&headers(&[("host", host)]));
+            let found = guard(listening).check_host(&Uri::from_static("/"), &headers(&[("host", host)]));
             assert_eq!(found.is_ok(), is_good, "{listening} {host}");
         }
     }
@@ -172,9 +191,43 @@ mod tests {
     #[test]
     fn a_host_is_named_once() {
         let guard = guard("127.0.0.1:9780");
-        assert_eq!(guard.check_host(&headers(&[])), Err(Refusal::Host));
+        let path = Uri::from_static("/");
+        assert_eq!(guard.check_host(&path, &headers(&[])), Err(Refusal::Host));
         let twice = headers(&[("host", "localhost:9780"), ("host", "localhost:9780")]);
-        assert_eq!(guard.check_host(&twice), Err(Refusal::Host));
+        assert_eq!(guard.check_host(&path, &twice), Err(Refusal::Host));
+    }
+
+    #[test]
+    fn a_whole_address_is_of_this_host_too() {
+        let guard = guard("127.0.0.1:9780");
+        let ours = headers(&[("host", "localhost:9780")]);
+        for (asked, is_good) in [
+            ("http://localhost:9780/", true),
+            ("http://127.0.0.1:9780/api/scene", true),
+            ("http://evil.example:9780/", false),
+            ("http://evil@localhost:9780/", false),
+            ("http://localhost/", false),
+        ] {
+            let found = guard.check_host(&Uri::from_static(asked), &ours);
+            assert_eq!(found.is_ok(), is_good, "{asked}");
+        }
+    }
+
+    #[test]
+    fn browsers_trust_this_machine_alone_without_encryption() {
+        for (host, is_trusted) in [
+            ("localhost:9780", true),
+            ("127.0.0.1:9780", true),
+            ("[::1]:9780", true),
+            ("10.0.0.5:9780", false),
+            ("studio-pc:9780", false),
+        ] {
+            assert_eq!(
+                Guard::is_of_this_machine(&headers(&[("host", host)])),
+                is_trusted,
+                "{host}"
+            );
+        }
     }
 
     #[test]

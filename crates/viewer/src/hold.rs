@@ -113,16 +113,33 @@ pub(crate) fn lost(poses: &[usize]) -> Vec<(usize, usize)> {
     stretches
 }
 
-/// The frame at a place of a take with what it lacks: the pose of another, the timecode of one of those shortly before.
+/// The frame at a place of a take with what it lacks: the pose of another, and what those shortly before say of it.
 pub(crate) fn read_whole(take: &Take, place: usize, pose: usize, frame: &mut Frame) {
     take.read_frame(place, frame);
     if pose != place {
         let posed = take.frame(pose);
         (frame.position, frame.orientation) = (posed.position, posed.orientation);
-        frame.center_of_mass = frame.center_of_mass.or(posed.center_of_mass);
     }
-    let before = &take.timecodes()[place.saturating_sub(MOST_HELD)..=place];
-    frame.timecode = before.iter().rev().find_map(|code| *code);
+    let newest = || (place.saturating_sub(MOST_HELD)..=place).rev();
+    frame.timecode = newest().find_map(|place| take.timecodes()[place]);
+    if frame.center_of_mass.is_none() {
+        frame.center_of_mass = newest().find_map(|place| center(take, place));
+    }
+    if frame.contacts.is_empty() {
+        let told = newest()
+            .map(|place| take.contacts(place))
+            .find(|contacts| !contacts.is_empty());
+        frame.contacts = told.unwrap_or_default().to_vec();
+    }
+}
+
+fn center(take: &Take, place: usize) -> Option<CenterOfMass> {
+    let position = take.column(Section::CenterOfMass)?.vector(place, 0)?;
+    Some(CenterOfMass {
+        position,
+        velocity: None,
+        acceleration: None,
+    })
 }
 
 /// What a pose is.

@@ -39,6 +39,7 @@ mod patience;
 mod recorder;
 mod recordings;
 mod refusal;
+mod room;
 mod routes;
 mod scene;
 mod series;

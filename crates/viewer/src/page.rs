@@ -102,8 +102,10 @@ async fn listen(from: &mut SplitStream<WebSocket>, wanted: &Wanted, app: &App) -
             Ok(Message::Close(_)) => return End::Gone,
             Ok(Message::Ping(_) | Message::Pong(_)) if pace.allows() => None,
             Ok(_) => Some("too many messages"),
-            Err(error) if is_oversized(&error) => Some("a message is at most 64 KiB long"),
-            Err(_) => return End::Gone,
+            Err(error) => match fault(&error) {
+                Some(fault) => Some(fault),
+                None => return End::Gone,
+            },
         };
         if let Some(reason) = refused {
             app.counts.refused.message.add(1);
@@ -130,9 +132,16 @@ fn heed(text: &str, wanted: &Wanted, app: &App) -> Option<&'static str> {
     }
 }
 
-fn is_oversized(error: &axum::Error) -> bool {
-    let source = std::error::Error::source(error);
-    source.is_some_and(|source| source.to_string().starts_with("Space limit exceeded"))
+/// What is wrong with what a page sent, unless it has just gone.
+fn fault(error: &axum::Error) -> Option<&'static str> {
+    let told = std::error::Error::source(error)?.to_string();
+    let is = |beginning: &str| told.starts_with(beginning);
+    if is("Space limit exceeded") {
+        return Some("a message is at most 64 KiB long");
+    }
+    let has_gone = told.ends_with("Connection reset without closing handshake");
+    ((is("WebSocket protocol error") && !has_gone) || is("UTF-8 encoding error"))
+        .then_some("expected a WebSocket's frames")
 }
 
 async fn show(to: &mut SplitSink<WebSocket, Message>, wanted: &Wanted, app: &App) -> End {

@@ -12,6 +12,7 @@ use axum::http::header::{CONTENT_DISPOSITION, CONTENT_LENGTH, CONTENT_TYPE};
 use axum::response::{IntoResponse, Response};
 use futures_util::stream;
 use serde::Deserialize;
+use std::fmt::Write;
 use std::fs::File;
 use std::io::{self, Read};
 use tokio::task::spawn_blocking;
@@ -33,8 +34,8 @@ struct Start {
 /// Begins a take.
 pub(crate) async fn start(State(app): Shared, body: Result<Bytes, BytesRejection>) -> Answer {
     let recorder = recorder(&app)?;
-    let start = body.ok().and_then(|body| serde_json::from_slice::<Start>(&body).ok());
-    let Some(start) = start else {
+    let body = body.map_err(|error| unread(&app, &error))?;
+    let Ok(start) = serde_json::from_slice::<Start>(&body) else {
         return Err(Refused::malformed(&app, "the take's name, as in {\"name\":\"walk\"}"));
     };
     act(&app, move || {
@@ -42,6 +43,22 @@ pub(crate) async fn start(State(app): Shared, body: Result<Bytes, BytesRejection
         Ok(recorder.record())
     })
     .await
+}
+
+/// A body that is too long, or did not come.
+fn unread(app: &App, error: &BytesRejection) -> Refused {
+    let status = error.status();
+    let problem = if status == StatusCode::PAYLOAD_TOO_LARGE {
+        "a body has at most 64 KiB"
+    } else {
+        "the body did not come to its end"
+    };
+    Refused::new(
+        app,
+        status,
+        problem,
+        "send the take's name alone, as in {\"name\":\"walk\"}",
+    )
 }
 
 /// Ends the take.
@@ -72,17 +89,34 @@ pub(crate) async fn fetch(State(app): Shared, name: Result<Path<String>, PathRej
     let Ok(Ok(Some((file, length)))) = opened else {
         return Err(Refused::missing(&app));
     };
-    // A listed name has no control characters worth keeping; a quote would end it.
-    let plain: String = name
-        .chars()
-        .filter(|&one| one.is_ascii_graphic() && one != '"')
-        .collect();
     let headers = [
         (CONTENT_TYPE, "application/octet-stream".to_owned()),
         (CONTENT_LENGTH, length.to_string()),
-        (CONTENT_DISPOSITION, format!("attachment; filename=\"{plain}\"")),
+        (CONTENT_DISPOSITION, disposition(&name)),
     ];
     Ok((headers, pieces(file, length)).into_response())
+}
+
+/// A download that is saved by this name, whatever it is written in (RFC 6266), and for programs that read no other, by its
+/// plain characters.
+fn disposition(name: &str) -> String {
+    let is_plain = |one: char| (one.is_ascii_graphic() || one == ' ') && !matches!(one, '"' | '\\' | '%');
+    let plain: String = name.chars().map(|one| if is_plain(one) { one } else { '_' }).collect();
+    format!("attachment; filename=\"{plain}\"; filename*=UTF-8''{}", encoded(name))
+}
+
+/// A text as RFC 5987 writes it.
+fn encoded(text: &str) -> String {
+    let mut encoded = String::with_capacity(text.len());
+    for byte in text.bytes() {
+        if byte.is_ascii_alphanumeric() || b"-._~".contains(&byte) {
+            encoded.push(char::from(byte));
+        } else {
+            // A string takes whatever is written.
+            let _ = write!(encoded, "%{byte:02X}");
+        }
+    }
+    encoded
 }
 
 /// A file as it was when it was opened: one that is being written may have grown.
@@ -138,3 +172,23 @@ fn recorder(app: &App) -> Result<Recorder, Refused> {
 }
 
 const PIECE: usize = 64 * 1024;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn downloads_keep_their_names() {
+        for (name, expected) in [
+            ("walk.mcap", "filename=\"walk.mcap\"; filename*=UTF-8''walk.mcap"),
+            (
+                "Gang \"3\".mcap",
+                "filename=\"Gang _3_.mcap\"; filename*=UTF-8''Gang%20%223%22.mcap",
+            ),
+            ("步.mcap", "filename=\"_.mcap\"; filename*=UTF-8''%E6%AD%A5.mcap"),
+            ("a\r\nb.mcap", "filename=\"a__b.mcap\"; filename*=UTF-8''a%0D%0Ab.mcap"),
+        ] {
+            assert_eq!(disposition(name), format!("attachment; {expected}"));
+        }
+    }
+}

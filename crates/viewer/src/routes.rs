@@ -4,6 +4,7 @@ use crate::app::App;
 use crate::guard::{Guard, Refusal};
 use crate::page::{self, MOST_MESSAGE};
 use crate::refusal::{Refused, refuse};
+use crate::room::Guest;
 use crate::{Content, Takes, assets, metrics, recordings};
 use axum::Router;
 use axum::extract::rejection::{PathRejection, QueryRejection};
@@ -49,19 +50,25 @@ async fn check_sender(State(app): Shared, request: Request, next: Next) -> Respo
     let headers = request.headers();
     let is_reading = matches!(*request.method(), Method::GET | Method::HEAD);
     let changes = !is_reading || request.uri().path() == "/ws";
-    let checked = app.guard.check_host(headers);
+    let checked = app.guard.check_host(request.uri(), headers);
     let checked = checked.and_then(|()| Guard::check_origin(headers, changes));
+    let is_trustworthy = Guard::is_of_this_machine(headers);
     let mut response = match checked {
         Ok(()) => next.run(request).await,
         Err(refusal) => refuse(&app, refusal).into_response(),
     };
-    assets::protect(&mut response);
+    assets::protect(&mut response, is_trustworthy);
     response
 }
 
 async fn check_token(State(app): Shared, request: Request, next: Next) -> Response {
     match app.guard.check_token(request.headers()) {
-        Ok(()) => next.run(request).await,
+        Ok(()) => {
+            if let Some(guest) = request.extensions().get::<Arc<Guest>>() {
+                guest.is_page();
+            }
+            next.run(request).await
+        }
         Err(refusal) => refuse(&app, refusal).into_response(),
     }
 }

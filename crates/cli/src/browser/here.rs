@@ -2,6 +2,7 @@
 
 use super::qr;
 use crate::context::say;
+use crate::error::Failure;
 use posewire::Sink;
 use posewire::endpoint::Endpoint;
 use posewire_viewer::{Content, Feed, Options, Server, ViewerSink};
@@ -29,7 +30,7 @@ impl Browser {
                 sources,
             )
         });
-        let browser = listen.transpose()?;
+        let browser = listen.transpose().map_err(|error| failure(&error))?;
         browser.iter().for_each(Self::announce);
         Ok(browser)
     }
@@ -48,9 +49,10 @@ impl Browser {
                     ..Options::default()
                 },
                 sources,
-            )?,
-            None => Self::live(&options, sources).or_else(|_| Self::live(&elsewhere, sources))?,
+            ),
+            None => Self::live(&options, sources).or_else(|_| Self::live(&elsewhere, sources)),
         };
+        let browser = browser.map_err(|error| failure(&error))?;
         browser.announce();
         Ok(Some(browser))
     }
@@ -107,6 +109,14 @@ impl Browser {
         if let Err(error) = quiet {
             say(format_args!("no browser could be opened with {program}: {error}"));
         }
+    }
+}
+
+/// Why a page beside another verb is not served: its address is that of `--view`.
+fn failure(error: &posewire_viewer::Error) -> Failure {
+    Failure {
+        problem: error.to_string(),
+        help: error.help_with("--view=").unwrap_or_default(),
     }
 }
 

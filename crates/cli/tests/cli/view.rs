@@ -211,6 +211,7 @@ fn what_cannot_be_shown_is_refused_with_help() {
     fs::write(folder.path().join("take.mvnx"), small_take(3)).unwrap();
     let taken = TcpListener::bind("127.0.0.1:0").unwrap();
     let taken = taken.local_addr().unwrap().to_string();
+    let beside = format!("--view={taken}");
     for (arguments, code, error, help) in [
         (
             ["view", "take.mvnx", "mxtp://127.0.0.1:0"].as_slice(),
@@ -237,6 +238,12 @@ fn what_cannot_be_shown_is_refused_with_help() {
             1,
             "cannot serve the page on",
             "--listen 127.0.0.1:",
+        ),
+        (
+            &["stream", "synthetic:walk", "--to", "mxtp://127.0.0.1", &beside],
+            1,
+            "cannot serve the page on",
+            "as in --view=127.0.0.1:",
         ),
     ] {
         let ended = posewire(folder.path(), arguments, b"");

@@ -36,7 +36,7 @@ pub enum NameError {
         /// The character.
         found: char,
     },
-    /// It begins or ends with a dot, or is one that a system keeps for itself.
+    /// It begins or ends with a dot, begins with a dash, or is one that a system keeps for itself.
     #[error("a file cannot be called {found:?}")]
     Reserved {
         /// The name.
@@ -57,12 +57,12 @@ impl TakeName {
 impl FromStr for TakeName {
     type Err = NameError;
 
-    /// White space around it is none of the name.
+    /// White space around it is none of the name, nor is the ending of the file that it names.
     ///
     /// # Errors
     /// What keeps it from being the name of a file.
     fn from_str(text: &str) -> Result<Self, NameError> {
-        let text = text.trim();
+        let text = without_ending(text.trim());
         if text.is_empty() {
             return Err(NameError::Empty);
         }
@@ -75,7 +75,7 @@ impl FromStr for TakeName {
         }
         let stem = text.split('.').next().unwrap_or_default().trim();
         let is_device = DEVICES.iter().any(|device| stem.eq_ignore_ascii_case(device));
-        if is_device || text.starts_with('.') || text.ends_with('.') {
+        if is_device || text.starts_with(['.', '-']) || text.ends_with('.') {
             let found = text.to_owned();
             return Err(NameError::Reserved { found });
         }
@@ -89,6 +89,13 @@ impl fmt::Display for TakeName {
     }
 }
 
+/// The name of a recording without what every recording's file ends in.
+fn without_ending(text: &str) -> &str {
+    let ended = text.split_at_checked(text.len().saturating_sub(ENDING.len()));
+    let ended = ended.filter(|(_, ending)| ending.eq_ignore_ascii_case(ENDING));
+    ended.map_or(text, |(name, _)| name.trim_end())
+}
+
 /// Separators, what Windows refuses, and what a terminal would obey or not show.
 fn is_refused(character: char) -> bool {
     let is_hidden =
@@ -96,6 +103,7 @@ fn is_refused(character: char) -> bool {
     matches!(character, '/' | '\\' | ':' | '*' | '?' | '"' | '<' | '>' | '|') || character.is_control() || is_hidden
 }
 
+const ENDING: &str = ".mcap";
 /// What Windows keeps for itself, with any ending.
 const DEVICES: [&str; 22] = [
     "con", "prn", "aux", "nul", "com1", "com2", "com3", "com4", "com5", "com6", "com7", "com8", "com9", "lpt1", "lpt2",
@@ -124,6 +132,8 @@ mod tests {
             "walk\u{1b}[2J",
             ".hidden",
             "walk.",
+            ".mcap",
+            "-rf",
             "NUL",
             "com1.mcap",
             "a\u{202e}b",
@@ -141,6 +151,18 @@ mod tests {
     fn names_that_people_give_are_taken() {
         for name in ["walk", "Gang 3 (frei)", "步行-001", "take_12.b", "console"] {
             assert_eq!(name.parse::<TakeName>().unwrap().as_str(), name);
+        }
+    }
+
+    #[test]
+    fn the_ending_of_a_file_is_none_of_the_name() {
+        for (told, name) in [
+            ("x.mcap", "x"),
+            ("x.MCAP", "x"),
+            ("x.mcap.mcap", "x.mcap"),
+            ("é.mca", "é.mca"),
+        ] {
+            assert_eq!(told.parse::<TakeName>().unwrap().as_str(), name);
         }
     }
 

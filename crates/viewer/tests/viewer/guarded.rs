@@ -43,7 +43,12 @@ fn only_this_host_and_its_own_page_are_answered() {
     );
     assert_eq!(status(at, "GET /ws", std::slice::from_ref(&ours)), 403);
     assert_eq!(status(at, "GET /ws", &[ours.clone(), origin(at)]), 400, "no WebSocket");
-    assert_eq!(status(at, "GET /healthz", &[ours.clone(), ours]), 421);
+    assert_eq!(status(at, "GET /healthz", &[ours.clone(), ours.clone()]), 421);
+    assert_eq!(
+        status(at, &format!("GET http://{at}/healthz"), std::slice::from_ref(&ours)),
+        200
+    );
+    assert_eq!(status(at, &format!("GET http://{evil}/healthz"), &[ours]), 421);
 }
 
 #[test]
@@ -143,6 +148,8 @@ fn a_page_that_sends_what_it_must_not_is_closed_and_no_other() {
         )),
         Message::text("[".repeat(60_000)),
         Message::text(" ".repeat(70_000)),
+        Message::text(" ".repeat(100_000)),
+        Message::text(" ".repeat(3_000_000)),
         Message::binary(vec![1, 2, 3]),
     ];
     let count = bad.len() as u64;
@@ -157,6 +164,29 @@ fn a_page_that_sends_what_it_must_not_is_closed_and_no_other() {
     let before = other.tick().number;
     assert_eq!(other.tick().number, before + 1);
     assert_eq!(metric(stage.address(), "posewire_viewer_pages"), 1);
+}
+
+#[test]
+fn frames_that_are_none_are_counted() {
+    let stage = Stage::new();
+    // Reserved bits, an operation that there is not, and no mask.
+    for frame in [
+        [0xf1, 0x80, 0, 0, 0, 0],
+        [0x83, 0x80, 0, 0, 0, 0],
+        [0x81, 0x01, b'a', 0, 0, 0],
+    ] {
+        let mut page = stage.page();
+        page.send_bytes(&frame);
+        page.ended();
+    }
+    assert_eq!(stage.metric("posewire_viewer_refused_total{why=\"message\"}"), 3);
+    drop(stage.page());
+    while stage.metric("posewire_viewer_pages") > 0 {}
+    assert_eq!(
+        stage.metric("posewire_viewer_refused_total{why=\"message\"}"),
+        3,
+        "who goes is no fault"
+    );
 }
 
 #[test]

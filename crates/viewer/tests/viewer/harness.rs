@@ -102,6 +102,16 @@ impl Page {
         let _ = self.socket.send(message);
     }
 
+    /// Sends bytes beside the WebSocket.
+    pub(crate) fn send_bytes(&mut self, bytes: &[u8]) {
+        self.socket.get_mut().write_all(bytes).unwrap();
+    }
+
+    /// Reads until the server has closed the connection.
+    pub(crate) fn ended(&mut self) {
+        while self.socket.read().is_ok() {}
+    }
+
     pub(crate) fn read(&mut self) -> Message {
         self.socket.read().unwrap()
     }

@@ -7,13 +7,14 @@ use posewire::stop::Stop;
 use posewire::{Item, Session, Sink, Source};
 use posewire_motion::{DVec3, Frame, Marker};
 use posewire_viewer::{Content, Feed, Options, Server, ViewerSink};
+use std::io::Read;
 use std::net::TcpStream;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 #[test]
 fn two_hundred_connections_are_served_or_told_that_there_is_no_room() {
-    let mut stage = Stage::new();
+    let mut stage = patient(Duration::from_hours(1));
     let at = stage.address();
     let mut first = stage.page();
     first.words("scene");
@@ -32,6 +33,27 @@ fn two_hundred_connections_are_served_or_told_that_there_is_no_room() {
         assert!(waited.elapsed() < LONG);
     }
     assert!(metric(at, "posewire_viewer_refused_total{why=\"connections\"}") >= 137);
+}
+
+#[test]
+fn connections_that_say_nothing_lock_nobody_out() {
+    let stage = patient(Duration::from_millis(100));
+    let mut page = stage.page();
+    page.words("scene");
+    let mut held: Vec<_> = (0..64).map(|_| TcpStream::connect(stage.address()).unwrap()).collect();
+    let request = format!(
+        "GET /api/scene HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n",
+        stage.address()
+    );
+    let waited = Instant::now();
+    while send(stage.address(), &request).map_or(503, |answer| answer.status) != 200 {
+        assert!(waited.elapsed() < LONG);
+    }
+    // The first of them has been sent away, and the page has not.
+    held[0].set_read_timeout(Some(LONG)).unwrap();
+    assert_eq!(held[0].read(&mut [0]).unwrap(), 0);
+    page.send(r#"{"type":"rate","hz":120}"#);
+    page.tick();
 }
 
 /// A frame of half a megabyte.

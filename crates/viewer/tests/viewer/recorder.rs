@@ -98,7 +98,7 @@ fn no_name_leads_out_of_the_folder() {
         assert_eq!(post(at, "/api/recorder/start", body).status, 400, "{body}");
     }
     let long = format!("{{\"name\":\"{}\"}}", "a".repeat(70_000));
-    assert_eq!(post(at, "/api/recorder/start", &long).status, 400);
+    assert_eq!(post(at, "/api/recorder/start", &long).status, 413);
     for name in [
         "../secret.mcap",
         "..%2Fsecret.mcap",

@@ -26,14 +26,30 @@ pub(super) fn load(endpoints: &[Endpoint], stop: &Stop) -> anyhow::Result<Takes>
             Endpoint::Capture { path } => (path, play(path, endpoint, stop)?),
             _ => continue,
         };
-        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-        takes.extend(found.into_iter().map(|take| (name.clone().into_owned(), take)));
+        let name = name(path, endpoints);
+        takes.extend(found.into_iter().map(|take| (name.clone(), take)));
     }
     if stop.is_stopped() {
         let what = "reading".to_owned();
         return Err(posewire::Error::Stopped { what }.into());
     }
     Ok(Takes::new(takes))
+}
+
+/// The name of a file, with its folder where another file is called the same.
+fn name(path: &Path, endpoints: &[Endpoint]) -> String {
+    let is_same = |endpoint: &&Endpoint| file(endpoint).is_some_and(|other| other.file_name() == path.file_name());
+    let plain = path
+        .file_name()
+        .filter(|_| endpoints.iter().filter(is_same).count() == 1);
+    plain.unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+fn file(endpoint: &Endpoint) -> Option<&Path> {
+    match endpoint {
+        Endpoint::File { path, .. } | Endpoint::Capture { path } => Some(path),
+        _ => None,
+    }
 }
 
 /// A damaged file is shown up to the damage.

@@ -8,7 +8,7 @@ import { json, post, words } from '../protocol/api';
 import type { Recorder, Recording } from '../protocol/statistics';
 import type { Part } from './performers';
 
-export function recorder(room: Room, say: (text: string) => void): Part {
+export function recorder(room: Room, say: (text: string | null) => void): Part {
   const name = h('input', {
     type: 'text',
     id: 'take-name',
@@ -23,18 +23,30 @@ export function recorder(room: Room, say: (text: string) => void): Part {
   const form = h('form', { class: 'record-form' }, h('label', { for: 'take-name' }, 'Name'), name, button);
   const element = h('section', { class: 'block', hidden: true }, h('h2', {}, 'Recorder'), form, status, list);
 
+  let busy = false;
   form.onsubmit = (event) => {
     event.preventDefault();
     button.disabled = true;
-    const asked = isRecording(room)
-      ? post('/api/recorder/stop')
-      : post('/api/recorder/start', { name: name.value.trim() || 'take' });
+    busy = true;
+    const asked = isRecording(room) ? stop() : start();
     asked
       .catch((error: unknown) => say(words(error)))
       .finally(() => {
-        button.disabled = false;
+        busy = false;
         void reload();
       });
+  };
+
+  const start = async (): Promise<void> => {
+    await post('/api/recorder/start', { name: name.value.trim() || 'take' });
+    say(null);
+  };
+
+  const stop = async (): Promise<void> => {
+    const file = `${room.recorder?.name}.mcap`;
+    await post('/api/recorder/stop');
+    const written = (await json<Recording[]>('/api/recordings')).find((each) => each.name === file);
+    say(written ? `Saved ${file}, ${bytes(written.bytes)}` : `Saved ${file}`);
   };
 
   const reload = async (): Promise<void> => {
@@ -58,6 +70,7 @@ export function recorder(room: Room, say: (text: string) => void): Part {
     if (was === 'recording' && state !== 'recording') void reload();
     was = state;
     setAttribute(element, 'data-state', state);
+    button.disabled = busy || room.connection !== 'open';
     setText(button.querySelector('span')!, isRecording(room) ? 'Stop' : 'Record');
     setAttribute(name, 'disabled', isRecording(room) ? '' : null);
     setText(status, statusText(room.recorder));

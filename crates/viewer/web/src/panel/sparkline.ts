@@ -24,7 +24,7 @@ export function sparkline(): Sparkline {
 /** From zero to the highest rate, so that a line at the top is steady and one that falls has fallen. */
 export function points(seconds: readonly Second[]): string {
   const highest = Math.max(...seconds.map((second) => second.rate), 1e-9);
-  const y = (rate: number): number => 1.5 + (1 - rate / highest) * (HEIGHT - 6);
+  const y = (rate: number): number => TOP + (1 - rate / highest) * (HEIGHT - TOP - 4.5);
   return seconds.map((second, place) => `${x(place, seconds)},${y(second.rate).toFixed(1)}`).join(' ');
 }
 
@@ -49,3 +49,5 @@ function summary(seconds: readonly Second[]): string {
 
 const WIDTH = 120;
 const HEIGHT = 24;
+/** Where a steady rate is: beside the text of its row, not above it. */
+const TOP = 8;

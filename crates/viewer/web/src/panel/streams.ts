@@ -5,6 +5,7 @@ import { count, milliseconds, shortRate } from '../model/format';
 import { streamKey } from '../model/history';
 import type { Room } from '../model/room';
 import type { SourceStatistics, Statistics, StreamStatistics } from '../protocol/statistics';
+import { nameOf } from '../protocol/types';
 import type { Part } from './performers';
 import { lossBlock } from './losses';
 import { type Sparkline, sparkline } from './sparkline';
@@ -17,7 +18,7 @@ export function streams(room: Room): Part {
   let shape = '';
   let groups: Group[] = [];
   const refresh = (): void => {
-    element.hidden = !room.live || !room.statistics;
+    element.hidden = !room.live || !room.statistics?.sources.some((source) => source.subjects.length > 0);
     if (element.hidden || room.statistics === shown || !room.statistics) return;
     shown = room.statistics;
     if (shape !== shapeOf(shown)) {
@@ -51,7 +52,7 @@ interface Group {
 function groupsOf(source: SourceStatistics, room: Room, many: boolean): Group[] {
   const names = [...new Set(source.subjects.map(groupKey))];
   const groups = names.map((key) =>
-    streamGroup(source, key, many ? `${room.scene?.source[source.source] ?? ''}: ` : ''),
+    streamGroup(source, key, many ? `${room.scene?.source[source.source] ?? ''}: ` : '', room),
   );
   return [...groups, lossBlock(source, many ? (room.scene?.source[source.source] ?? '') : '')];
 }
@@ -60,10 +61,16 @@ function groupKey(stream: StreamStatistics): string {
   return `${stream.character ?? '-'} ${stream.name}`;
 }
 
-function streamGroup(source: SourceStatistics, key: string, prefix: string): Group {
+/** As the stage names the only performer of a source without a name; of several, which is which is told by the number. */
+function nameless(room: Room, source: SourceStatistics, stream: StreamStatistics): string {
+  const subjects = room.subjects.filter((subject) => subject.source === source.source && !subject.name);
+  return subjects.length === 1 ? nameOf(subjects[0]!) : `Character ${stream.character ?? 0}`;
+}
+
+function streamGroup(source: SourceStatistics, key: string, prefix: string, room: Room): Group {
   const own = source.subjects.filter((stream) => groupKey(stream) === key).sort((a, b) => a.type.localeCompare(b.type));
   const first = own[0]!;
-  const title = `${prefix}${first.name || `character ${first.character ?? 0}`}`;
+  const title = `${prefix}${first.name || nameless(room, source, first)}`;
   const rows = own.map((stream) => new StreamRow(streamKey(source, stream), stream));
   const summary = h('span', { class: 'summary-note' });
   const columns = ['Type', 'Rate', 'Last 2 min', 'Missing', INTERVAL];
@@ -169,6 +176,6 @@ const TYPES: Record<string, string> = {
   '21': 'Linear',
   '22': 'Angular',
   '23': 'Trackers',
-  '24': 'Mass centre',
+  '24': 'Centre of mass',
   '25': 'Timecode',
 };

@@ -1,28 +1,46 @@
 /** The files that are played: what they hold, and their markers and gaps to go to. */
 
-import { h } from '../dom/h';
+import { h, setText } from '../dom/h';
 import { clock, count, hertz } from '../model/format';
 import type { Room } from '../model/room';
-import type { Take } from '../protocol/types';
+import { type Take, nameOf } from '../protocol/types';
 import type { Part } from './performers';
 
 /** `go` shows a frame of a take. */
 export function takes(room: Room, go: (take: Take, frame: number) => void): Part {
   const body = h('div', { class: 'takes' });
-  const element = h('section', { class: 'block', hidden: true }, h('h2', {}, 'Takes'), body);
+  const below = h('p', { class: 'aside' });
+  const element = h('section', { class: 'block', hidden: true }, h('h2', {}, 'Takes'), body, below);
   let shown: Take[] | null = null;
   const refresh = (): void => {
-    if (shown === room.takes || room.takes.length === 0) return;
+    if (room.takes.length === 0) return;
+    setText(below, belowText(room));
+    if (shown === room.takes) return;
     shown = room.takes;
     element.hidden = false;
-    body.replaceChildren(...shown.map((take) => takeBlock(take, shown?.length === 1, go)));
+    body.replaceChildren(...shown.map((take) => takeBlock(take, room, go)));
   };
   return { element, refresh };
 }
 
-function takeBlock(take: Take, open: boolean, go: (take: Take, frame: number) => void): HTMLElement {
+/** "Ada reaches 0.96 m below the floor in this frame.": a recording's floor need not be that of the stage. */
+function belowText(room: Room): string {
+  const lines = room.subjects.flatMap((subject) => {
+    const lowest = (room.records.get(subject.id)?.position ?? new Float32Array()).reduce(
+      (least, value, at) => (at % 3 === 2 && value < least ? value : least),
+      0,
+    );
+    return lowest < -BELOW ? [`${nameOf(subject)} reaches ${(-lowest).toFixed(2)} m below the floor in this frame.`] : [];
+  });
+  return lines.join(' ');
+}
+
+function takeBlock(take: Take, room: Room, go: (take: Take, frame: number) => void): HTMLElement {
+  const subject = room.subject(take.subject);
   const name = h('span', { class: 'summary-name' }, take.file);
+  const whose = subject && room.takes.length > 1 ? `${nameOf(subject)}, ` : '';
   const facts = [
+    subject ? fact('Performer', nameOf(subject)) : null,
     fact('Frames', count(take.frames)),
     fact('Rate', hertz(take.rate_hz)),
     fact('Length', clock(take.duration_s, 1)),
@@ -30,7 +48,7 @@ function takeBlock(take: Take, open: boolean, go: (take: Take, frame: number) =>
   const block = h(
     'details',
     {},
-    h('summary', {}, name, h('span', { class: 'summary-note' }, note(take))),
+    h('summary', {}, name, h('span', { class: 'summary-note' }, `${whose}${note(take)}`)),
     h('dl', { class: 'facts' }, ...facts),
     places(
       take,
@@ -51,7 +69,7 @@ function takeBlock(take: Take, open: boolean, go: (take: Take, frame: number) =>
       go,
     ),
   );
-  block.open = open;
+  block.open = room.takes.length === 1;
   return block;
 }
 
@@ -101,6 +119,9 @@ function places(take: Take, title: string, all: Place[], go: (take: Take, frame:
 function fact(name: string, value: string): HTMLElement {
   return h('div', {}, h('dt', {}, name), h('dd', {}, value));
 }
+
+/** Metres below the floor that are no mere error of a suit. */
+const BELOW = 0.1;
 
 /** Markers and gaps that are listed of each take. */
 const SHOWN = 100;

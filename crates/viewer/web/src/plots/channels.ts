@@ -33,9 +33,8 @@ export function search(subjects: Subject[], text: string, limit: number): Channe
   const found: Channel[] = [];
   for (const subject of subjects) {
     for (const channel of channelsOf(subject)) {
-      const where =
-        `${channel.subjectName} ${channel.name.replaceAll('_', ' ')} ${axisName(channel)} ${channel.unit}`.toLowerCase();
-      if (words.every((word) => where.includes(word.replaceAll('_', ' ')))) found.push(channel);
+      const where = wordsOf(channel);
+      if (words.every((word) => where.includes(word))) found.push(channel);
       if (found.length >= limit) return found;
     }
   }
@@ -61,9 +60,28 @@ export function axisName(channel: Pick<Channel, 'section' | 'axis'>): string {
 
 /** "jRightKnee flexion", "Pelvis position z". */
 export function title(channel: Channel): string {
-  const section = channel.section.replaceAll('_', ' ');
+  const section = sectionName(channel.section);
+  if (channel.entry === 'CoM') return `${section.charAt(0).toUpperCase()}${section.slice(1)} ${channel.axis}`;
   if (channel.section === 'joint_angles') return `${channel.entry} ${axisName(channel)}`;
   return `${channel.entry} ${section} ${axisName(channel)}`;
+}
+
+/** "m/s²", "°". */
+export function unitName(unit: string): string {
+  return unit === 'deg' ? '°' : unit.replace('deg', '°').replace('s2', 's²');
+}
+
+/** Everything that a channel may be called: as on the page, as the server knows it, with its words apart. */
+function wordsOf(channel: Channel): string {
+  const apart = channel.entry.replaceAll(/([a-z])([A-Z])/g, '$1 $2');
+  const spaced = channel.name.replaceAll('_', ' ');
+  const { subjectName, name, unit } = channel;
+  const all = [subjectName, title(channel), name, spaced, apart, axisName(channel), unit, unitName(unit)];
+  return all.join(' ').toLowerCase();
+}
+
+function sectionName(section: string): string {
+  return section.replace('center_of_mass', 'centre_of_mass').replaceAll('_', ' ');
 }
 
 function* channelsOf(subject: Subject): Generator<Channel> {

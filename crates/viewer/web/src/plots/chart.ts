@@ -89,10 +89,10 @@ export class Chart {
         {
           ...axis,
           size: 26,
-          splits: (plot, _axis, min, max) => splits(min, max, this.options.origin(), plot.over.clientWidth / 70),
+          splits: (plot, _axis, min, max) => splits(min, max, this.options.origin(), (plot.width - Y_AXIS) / 70),
           values: (_, times) => times.map(this.options.time),
         },
-        { ...axis, size: 48, space: 24 },
+        { ...axis, size: Y_AXIS, space: 24 },
       ],
       series: [{}, ...this.options.lines.map(series)],
       hooks: {
@@ -153,4 +153,6 @@ function cursorTime(plot: uPlot): number | null {
   return left === undefined || left < 0 ? null : plot.posToVal(left, 'x');
 }
 
+/** The pixels beside a chart for its values. */
+const Y_AXIS = 48;
 const FONT = '12px system-ui, sans-serif';

@@ -5,7 +5,7 @@ import { icon, setIcon } from '../dom/icons';
 import { clock } from '../model/format';
 import type { Subject } from '../protocol/types';
 import type { Span } from '../transport/timeline';
-import { channelKey, title } from './channels';
+import { channelKey, title, unitName } from './channels';
 import { Chart } from './chart';
 import { pickChannels } from './picker';
 import { thin } from './thin';
@@ -233,8 +233,8 @@ export function traceColor(style: CSSStyleDeclaration, trace: Trace): string {
 function valueText(value: number | null, unit: string): string {
   if (value === null) return '–';
   const digits = Math.abs(value) >= 100 ? 1 : unit === 'deg' ? 2 : 3;
-  const name = UNITS[unit] ?? ` ${unit}`;
-  return `${value.toFixed(digits)}${unit === '' ? '' : name}`;
+  const name = unitName(unit);
+  return `${value.toFixed(digits)}${name && !name.startsWith('°') ? ' ' : ''}${name}`;
 }
 
 function button(name: 'pause' | 'reset' | 'remove', label: string, onclick: () => void): HTMLButtonElement {
@@ -244,10 +244,3 @@ function button(name: 'pause' | 'reset' | 'remove', label: string, onclick: () =
 const COLORS = 8;
 /** Places for a lowest and a highest value over the width of a chart. */
 const BUCKETS = 1000;
-const UNITS: Record<string, string> = {
-  deg: '°',
-  'deg/s': '°/s',
-  'deg/s2': '°/s²',
-  'm/s2': ' m/s²',
-  'rad/s2': ' rad/s²',
-};

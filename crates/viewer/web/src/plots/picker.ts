@@ -3,7 +3,7 @@
 import { h, setAttribute } from '../dom/h';
 import { icon } from '../dom/icons';
 import type { Subject } from '../protocol/types';
-import { type Channel, channelKey, search, suggestions, title } from './channels';
+import { type Channel, channelKey, search, suggestions, title, unitName } from './channels';
 
 /** Opens the dialog. `chosen` says which are plotted, `toggle` adds or removes one. */
 export function pickChannels(subjects: Subject[], chosen: () => Set<string>, toggle: (channel: Channel) => void): void {
@@ -70,11 +70,13 @@ function row(
     'button',
     { type: 'button', 'aria-pressed': String(chosen().has(key)) },
     h('span', { class: 'name' }, title(channel)),
-    h('span', { class: 'detail' }, [many ? channel.subjectName : '', channel.unit].filter(Boolean).join(', ')),
+    h('span', { class: 'detail' }, [many ? channel.subjectName : '', unitName(channel.unit)].filter(Boolean).join(', ')),
   );
   button.onclick = () => {
     toggle(channel);
     setAttribute(button, 'aria-pressed', String(chosen().has(key)));
+    // What was added is seen in the plots; what was taken away may be replaced by another.
+    if (chosen().has(key)) button.closest('dialog')?.close();
   };
   return h('li', {}, button);
 }

@@ -26,7 +26,20 @@ describe('channels', () => {
     expect(names('joint_angles left abduction')).toEqual(['0:joint_angles/jLeftKnee/x']);
     expect(search(subjects, '', 4)).toHaveLength(4);
     const nameless = { ...subjects[1], id: 4, name: '', kind: 'person' } as Subject;
-    expect(search([nameless], 'person 4 pelvis', 4)).toHaveLength(3);
+    expect(search([nameless], 'person 5 pelvis', 4)).toHaveLength(3);
+  });
+
+  it('are found by what they are called on the page and by what the server calls them', () => {
+    const groups = [
+      { section: 'center_of_mass', entries: ['CoM'], axes: ['x', 'y', 'z'], unit: 'm' },
+      { section: 'angular_velocity', entries: ['RightUpperArm'], axes: ['x', 'y', 'z'], unit: 'deg/s' },
+    ];
+    const performer = [{ id: 0, name: 'Ada', channels: groups }] as unknown as Subject[];
+    const names = (text: string) => search(performer, text, 20).map(title);
+    expect(names('centre of mass z')).toEqual(['Centre of mass z']);
+    expect(names('center_of_mass/CoM/z')).toEqual(['Centre of mass z']);
+    expect(names('right upper arm angular velocity x')).toEqual(['RightUpperArm angular velocity x']);
+    expect(names('m/s')).toEqual([]);
   });
 
   it('are found again by their key, and suggested', () => {

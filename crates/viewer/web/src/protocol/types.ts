@@ -69,7 +69,8 @@ export interface Subject {
 
 /** What it is called on the page, also before or without a name of its own. */
 export function nameOf(subject: Subject): string {
-  return subject.name || `${subject.kind} ${subject.id}`;
+  const { name, kind, id } = subject;
+  return name || `${kind.charAt(0).toUpperCase()}${kind.slice(1)} ${id + 1}`;
 }
 
 /** A marker of a take's timeline. */

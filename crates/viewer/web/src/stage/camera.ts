@@ -196,8 +196,8 @@ function from(degrees: number, steep: number): Vector3 {
  */
 const SIDES: Record<Preset, Vector3[]> = {
   free: [-38, 38, -52, 52, 0].map((degrees) => from(degrees, 0.3)),
-  front: [0, -20, 20, -35, 35].map((degrees) => from(degrees, 0.16)),
-  side: [-90, -110, -70, -125, -55].map((degrees) => from(degrees, 0.16)),
+  front: [0, -20, 20, -45, 45].map((degrees) => from(degrees, 0.16)),
+  side: [-90, -110, -70, -135, -45].map((degrees) => from(degrees, 0.16)),
   top: [new Vector3(-0.002, 0, 1).normalize()],
 };
 

@@ -225,7 +225,7 @@ export class Stage {
 
   private render(): void {
     this.drawPerformers();
-    this.tags.place(this.eye.camera, this.size.height);
+    this.tags.place(this.eye.camera, this.size.width, this.size.height);
     this.sky.surround(this.eye.camera.position);
     this.renderer.render(this.scene, this.eye.camera);
     this.posesChanged = this.viewChanged = false;
@@ -273,8 +273,13 @@ export class Stage {
     if (this.framed !== count) this.reach.forget();
     this.reach.add(outline);
     if (this.framed !== count) this.frameFirst();
-    else if (!outline.every((place) => this.eye.sees(place))) this.eye.widen(this.reach.corners());
+    else if (!outline.every((place) => this.eye.sees(place))) this.eye.widen(this.reach.corners(outline, this.beyond()));
     this.framed = count;
+  }
+
+  /** Metres that are seen beyond where everybody is: a narrow picture goes along sooner, or all were small in it. */
+  private beyond(): number {
+    return 2 * Math.min(this.size.width / this.size.height, 1) ** 2;
   }
 
   private frameFirst(): void {

@@ -1,7 +1,7 @@
 import {
   CanvasTexture,
   type Color,
-  LinearFilter,
+  LinearMipmapLinearFilter,
   MathUtils,
   type PerspectiveCamera,
   Sprite,
@@ -21,11 +21,21 @@ export interface TagText {
   color: Color;
 }
 
+/** A rectangle of the picture, CSS pixels from its upper left. */
+export interface Place {
+  left: number;
+  right: number;
+  top: number;
+  bottom: number;
+}
+
 /** A name over a performer's head, of the same size wherever it is. */
 export class Tag {
   readonly sprite: Sprite;
   private drawn = '';
   private size = { width: 1, height: 1 };
+  /** CSS pixels on the screen. */
+  private height = 1;
 
   constructor() {
     const material = new SpriteMaterial({
@@ -37,7 +47,7 @@ export class Tag {
     });
     this.sprite = new Sprite(material);
     // A little above its place on the screen, so that it hides nobody from above either.
-    this.sprite.center.set(0.5, -0.55);
+    this.sprite.center.set(0.5, -ABOVE);
     this.sprite.renderOrder = 30;
     this.sprite.visible = false;
   }
@@ -52,20 +62,32 @@ export class Tag {
     this.sprite.material.map?.dispose();
     const texture = new CanvasTexture(canvas);
     texture.colorSpace = SRGBColorSpace;
-    texture.minFilter = texture.magFilter = LinearFilter;
-    texture.generateMipmaps = false;
+    // Smaller than painted where it is far away, or where a slow machine draws few pixels.
+    texture.minFilter = LinearMipmapLinearFilter;
     this.sprite.material.map = texture;
     this.sprite.material.needsUpdate = true;
   }
 
-  /** Puts it over a place, in a picture so many CSS pixels high; a little smaller when far away. */
-  place(at: Vector3, camera: PerspectiveCamera, height: number): void {
+  /** Puts it over a place, in a picture of so many CSS pixels; a little smaller when far away. Gives where that is. */
+  place(at: Vector3, camera: PerspectiveCamera, width: number, height: number): Place {
     this.sprite.position.copy(at);
     const away = camera.position.distanceTo(at);
     const pixel = (2 * Math.tan(MathUtils.degToRad(camera.fov / 2))) / Math.max(height, 1);
-    const size = pixel * MathUtils.clamp(8 / away, 0.72, 1);
+    const part = MathUtils.clamp(8 / away, 0.72, 1);
+    const size = pixel * part;
     this.sprite.scale.set(this.size.width * size, this.size.height * size, 1);
     this.sprite.material.opacity = MathUtils.clamp(1.3 - away / 60, 0.75, 1);
+    this.height = this.size.height * part;
+    const { x, y } = at.clone().project(camera);
+    const middle = ((x + 1) / 2) * width;
+    const bottom = ((1 - y) / 2) * height - ABOVE * this.height;
+    const half = (this.size.width * part) / 2;
+    return { left: middle - half, right: middle + half, top: bottom - this.height, bottom };
+  }
+
+  /** Moves it so many CSS pixels up from there. */
+  lift(pixels: number): void {
+    this.sprite.center.y = -ABOVE - pixels / this.height;
   }
 
   dispose(): void {
@@ -74,6 +96,8 @@ export class Tag {
   }
 }
 
+/** How far above its place it is, in its own heights. */
+const ABOVE = 0.55;
 /** Texture pixels for each CSS pixel. */
 const DENSITY = 2;
 const NAME = '600 13px system-ui, sans-serif';

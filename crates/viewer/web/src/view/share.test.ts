@@ -19,3 +19,9 @@ it('what makes no sense is left out', () => {
   expect(readHash('#camera=1,2,x&follow=&frame=-3&hidden=a&other=1')).toEqual({});
   expect(readHash('')).toEqual({});
 });
+
+it('leaves out a camera that sees nothing', () => {
+  expect(readHash('#camera=1e9,0,1,0,0,1').camera).toBeUndefined();
+  expect(readHash('#camera=1,2,3,1,2,3').camera).toBeUndefined();
+  expect(readHash('#camera=4,2,3,1,2,3').camera).toBeDefined();
+});

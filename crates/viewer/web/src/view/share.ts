@@ -35,7 +35,9 @@ export function readHash(hash: string): SharedView {
   const view: SharedView = {};
   const camera = numbers(values.get('camera'));
   if (camera?.length === 6) {
-    view.camera = { position: camera.slice(0, 3) as Vector, target: camera.slice(3) as Vector };
+    const [position, target] = [camera.slice(0, 3) as Vector, camera.slice(3) as Vector];
+    const away = Math.hypot(...position.map((value, axis) => value - target[axis]!));
+    if (away >= NEAREST && camera.every((value) => Math.abs(value) <= FARTHEST)) view.camera = { position, target };
   }
   const [follow] = numbers(values.get('follow')) ?? [];
   if (follow !== undefined) view.follow = follow;
@@ -49,6 +51,11 @@ export function readHash(hash: string): SharedView {
   if (plots.length > 0) view.plots = plots;
   return view;
 }
+
+/** Metres from what it looks at that a camera may be: nearer, it looks nowhere. */
+const NEAREST = 0.1;
+/** Metres from the origin that a camera may be: beyond, nothing is seen and nobody finds back. */
+const FARTHEST = 1000;
 
 function numbers(text: string | null): number[] | null {
   if (!text) return null;

@@ -1,13 +1,15 @@
-/** A line that says what was done, and goes by itself. */
+/** A line that says what was done, and goes by itself, or when what it says is past. */
 
 import { byId } from '../dom/h';
 
 let timer = 0;
 
-export function toast(text: string): void {
+/** Shows a text; null takes away what is shown. */
+export function toast(text: string | null): void {
   const element = byId('toast');
-  element.textContent = text;
-  element.classList.add('shown');
   window.clearTimeout(timer);
+  element.classList.toggle('shown', text !== null);
+  if (text === null) return;
+  element.textContent = text;
   timer = window.setTimeout(() => element.classList.remove('shown'), 1500 + 45 * text.length);
 }

@@ -77,6 +77,6 @@ const LABELS: Record<Shown, [string, string]> = {
   names: ['Names', 'n'],
   axes: ['Axes', 'a'],
   trails: ['Trails', 't'],
-  com: ['Mass centre', 'c'],
+  com: ['Centre of mass', 'c'],
   markers: ['Markers', 'm'],
 };
