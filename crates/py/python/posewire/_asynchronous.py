@@ -1,4 +1,4 @@
-"""Samples of a stream for asyncio, on any event loop."""
+"""Samples of a stream for asyncio."""
 
 from __future__ import annotations
 
