@@ -118,11 +118,9 @@ fn a_recorder_that_is_killed_loses_no_more_than_a_quarter_of_a_second() {
     for round in 0..20_u64 {
         // From a tenth to three quarters of a second, differently each time.
         let life = Duration::from_millis(100 + round * 7919 % 650);
-        // A machine that is busy with other things may not let the recorder run for as long, but not each time.
-        let mut lost = (0..3).map(|again| lost_when_killed(folder.path(), &format!("{round}-{again}"), life));
-        let found = lost.find(|lost| *lost <= A_QUARTER);
-        latest = latest.max(found.expect("more was lost three times in a row"));
+        latest = latest.max(lost_when_killed(folder.path(), &round.to_string(), life));
     }
+    assert!(latest <= A_QUARTER, "{latest:?} were lost");
     println!("at most {latest:?} were lost");
 }
 
