@@ -7,6 +7,7 @@ from typing import Any, Literal, final
 
 import numpy as np
 import numpy.typing as npt
+from typing_extensions import Buffer
 
 _Floats = npt.NDArray[np.float64]
 _Path = str | PathLike[str]
@@ -289,5 +290,7 @@ def streamer(
     names: Sequence[str] | None = None,
     types: str | None = None,
 ) -> Streamer: ...
-def decode(data: bytes, protocol: Literal["mxtp", "natnet"] | None = None, version: str = "4.1") -> dict[str, Any]: ...
+def decode(
+    data: Buffer, protocol: Literal["mxtp", "natnet"] | None = None, version: str = "4.1"
+) -> dict[str, Any]: ...
 def main(arguments: Sequence[str]) -> int: ...
