@@ -23,6 +23,9 @@ class Column:
 
 @final
 class Skeleton:
+    def __new__(
+        cls, segments: Sequence[str], parents: Sequence[int | None] | None = None, origins: npt.ArrayLike | None = None
+    ) -> Skeleton: ...
     @staticmethod
     def standard(props: int = 0, fingers: bool = False) -> Skeleton: ...
     @property
