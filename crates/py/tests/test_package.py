@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 from conftest import ROOT
 
@@ -70,12 +71,54 @@ def test_there_are_examples():
     assert len(EXAMPLES) >= 4
 
 
-@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
-def test_examples_run(path, tmp_path):
+def run_example(path, folder, *arguments):
     for module in re.findall(r"^import (matplotlib|polars)", path.read_text(), re.M):
         pytest.importorskip(module)
-    ended = run(str(path), cwd=tmp_path, env={**os.environ, "MPLBACKEND": "Agg"})
+    (folder / "temporary").mkdir()
+    environment = {**os.environ, "MPLBACKEND": "Agg", "TMPDIR": str(folder / "temporary")}
+    ended = run(str(path), *arguments, cwd=folder, env=environment)
     assert ended.returncode == 0, ended.stderr
+    return ended.stdout
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_examples_run_and_leave_nothing_where_they_are(path, tmp_path):
+    said = run_example(path, tmp_path)
+    assert [left.name for left in tmp_path.iterdir()] == ["temporary"]
+    written = [left for left in tmp_path.rglob("*") if left.is_file()]
+    assert said and all(str(left) in said and left.stat().st_size for left in written)
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_examples_explain_themselves(path, tmp_path):
+    if "argparse" not in path.read_text():
+        pytest.skip("takes its arguments by place")
+    assert run_example(path, tmp_path, "--help").startswith("usage: ")
+
+
+def test_examples_write_where_they_are_told(tmp_path, walk):
+    run_example(
+        ROOT / "examples/live_angle_to_csv.py", tmp_path, "--samples", "5", "--out", "knee.csv", "--joint", "jLeftKnee"
+    )
+    rows = (tmp_path / "knee.csv").read_text().splitlines()
+    assert len(rows) == 6 and rows[0] == "sample,time,abduction,rotation,flexion"
+    assert float(rows[1].split(",")[4]) == pytest.approx(
+        np.degrees(walk.joint_angles()[0, walk.joints.index("jLeftKnee"), 2]), abs=1e-3
+    )
+
+
+def test_the_parts_of_the_plot_can_be_imported(tmp_path, walk):
+    pytest.importorskip("matplotlib")
+    walk.write(tmp_path / "walk.mvnx")
+    program = "import posewire, plot_joint_angles; axes = plot_joint_angles.plot(posewire.read('walk.mvnx')); print(len(axes.lines))"
+    environment = {
+        **os.environ,
+        "MPLBACKEND": "Agg",
+        "PYTHONPATH": str(ROOT / "examples"),
+        "PYTHONDONTWRITEBYTECODE": "1",
+    }
+    ended = run("-c", program, cwd=tmp_path, env=environment)
+    assert (ended.stdout, ended.returncode) == ("4\n", 0), ended.stderr
 
 
 def blocks(document):
