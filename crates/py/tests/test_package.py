@@ -34,6 +34,52 @@ def test_the_command_is_installed():
     assert ended.stdout == f"posewire {posewire.__version__}\n"
 
 
+def test_a_second_command_line_in_a_process_is_refused():
+    program = """
+import posewire, sys, threading
+from posewire.__main__ import main
+sys.argv[1:] = ["inspect", "missing.mvnx"]
+codes = []
+thread = threading.Thread(target=lambda: codes.append(main()))
+thread.start()
+thread.join()
+try:
+    main()
+except posewire.UsageError as error:
+    print(codes, error)
+"""
+    ended = run("-c", program)
+    assert ended.stdout.startswith("[1] expected one command line in a process, found another\nhelp: give it a process")
+    assert ended.stderr.startswith("error: cannot read missing.mvnx")
+
+
+def test_a_reader_that_goes_is_no_failure(tmp_path):
+    datagram = (ROOT / "testdata/mxtp/02_quaternion_rev_n.bin").read_bytes()
+    (tmp_path / "many.bin").write_bytes(datagram * 500)
+    program = [sys.executable, "-m", "posewire", "explain", str(tmp_path / "many.bin")]
+    with subprocess.Popen(program, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as explain:
+        assert explain.stdout.readline().startswith("MXTP02")
+        explain.stdout.close()
+        assert explain.stderr.read() == "" and explain.wait(timeout=60) == 0
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "latin-1", "utf-8"])
+def test_what_it_prints_is_utf_8_whatever_python_thinks(encoding):
+    command = [sys.executable, "-m", "posewire", "explain", str(ROOT / "testdata/mxtp/12_meta_rev_n.bin")]
+    environment = {**os.environ, "PYTHONIOENCODING": encoding, "LC_ALL": "C"}
+    ended = subprocess.run(command, capture_output=True, timeout=60, env=environment)
+    assert ended.returncode == 0 and 'name "Zoë"' in ended.stdout.decode("utf-8")
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs file names of any bytes")
+def test_arguments_keep_bytes_that_are_no_text(tmp_path):
+    path = os.fsencode(tmp_path) + b"/caf\xe9.mvnx"
+    with open(path, "wb") as file:
+        file.write(b"<mvnx")
+    ended = subprocess.run([sys.executable, "-m", "posewire", "inspect", path], capture_output=True, timeout=60)
+    assert ended.returncode == 1 and b"Traceback" not in ended.stderr
+
+
 def test_an_interrupt_ends_the_command():
     program = [sys.executable, "-m", "posewire", "monitor", "mxtp://127.0.0.1:0", "--json"]
     with subprocess.Popen(program, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as monitor:
