@@ -88,12 +88,22 @@ def test_an_interrupt_ends_the_command():
         assert monitor.wait(timeout=60) == 0
 
 
-def test_importing_takes_numpy_alone():
-    loaded = run(
-        "-c", "import sys, numpy; before = set(sys.modules); import posewire; print(*set(sys.modules) - before)"
-    )
-    ours = {name.split(".")[0] for name in loaded.stdout.split()}
-    assert ours <= {"posewire", "__future__"}, ours
+def loaded_by(program):
+    """Names of the packages and modules that a program loads, beside those that Python has loaded by itself."""
+    ended = run("-c", f"import sys\nbefore = set(sys.modules)\n{program}\nprint(*set(sys.modules) - before)")
+    assert ended.returncode == 0, ended.stderr
+    return {name.split(".")[0] for name in ended.stdout.split()}
+
+
+def test_importing_costs_nothing_but_the_module_itself():
+    assert loaded_by("import posewire") <= {"posewire", "__future__"}
+
+
+def test_arrays_take_numpy_and_nothing_else():
+    work = "posewire.read('synthetic:walk', duration=0.1).position"
+    ours = loaded_by(f"import numpy, posewire\n{work}") - loaded_by("import numpy")
+    assert ours <= {"posewire", "__future__"}
+    assert "asyncio" in loaded_by("import posewire\naiter(posewire.listen('synthetic:walk'))")
 
 
 def public(names):

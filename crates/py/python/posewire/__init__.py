@@ -11,7 +11,7 @@ Metres, radians, seconds; right-handed, X forward, Y left, Z up; quaternions w, 
 nothing was tracked.
 """
 
-from typing import Final
+from __future__ import annotations
 
 from ._errors import (
     ClosedError,
@@ -40,6 +40,10 @@ from ._posewire import (
     read_all,
     streamer,
 )
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Final
 
 # OverflowError is not among them: `from posewire import *` must not hide Python's own.
 __all__ = [
