@@ -65,12 +65,21 @@ impl Skeleton {
 
     /// MVN's skeleton: 23 body segments and 22 joints, then up to 4 `props`, then, with `fingers`, 20 segments of each hand.
     ///
-    /// Raises UsageError for another number of props.
+    /// `sensors` are the names of the segments that wear motion trackers, in the order of the sensors' arrays: MVN's 17 if left out.
+    ///
+    /// Raises UsageError for another number of props, and for sensors on no segment or twice on one.
     #[staticmethod]
-    #[pyo3(signature = (props = Whole::of(0), fingers = false), text_signature = "(props=0, fingers=False)")]
-    fn standard(props: Whole, fingers: bool) -> PyResult<Self> {
+    #[pyo3(
+        signature = (props = Whole::of(0), fingers = false, sensors = None),
+        text_signature = "(props=0, fingers=False, sensors=None)"
+    )]
+    fn standard(props: Whole, fingers: bool, sensors: Option<Vec<String>>) -> PyResult<Self> {
         let props = props.within("props", 0..=MAX_PROPS)?;
-        Ok(posewire_motion::Skeleton::standard(props, fingers).into())
+        let mut skeleton = posewire_motion::Skeleton::standard(props, fingers);
+        if let Some(sensors) = sensors {
+            skeleton.sensors = worn(&skeleton, &sensors)?;
+        }
+        Ok(skeleton.into())
     }
 
     /// Names of the segments, in the order of the arrays.
@@ -149,10 +158,12 @@ impl Skeleton {
         let class = PyType::new::<Self>(py);
         let skeleton = &self.subject.skeleton;
         let (props, fingers) = (skeleton.count(SegmentKind::Prop), skeleton.finger_count() > 0);
-        if *skeleton == posewire_motion::Skeleton::standard(props, fingers) {
+        let mut standard = posewire_motion::Skeleton::standard(props, fingers);
+        standard.sensors.clone_from(&skeleton.sensors);
+        if *skeleton == standard {
             let caller = py.import("operator")?.getattr("methodcaller")?;
             let arguments = (class,).into_pyobject(py)?.into_any();
-            return Ok((caller.call1(("standard", props, fingers))?, arguments));
+            return Ok((caller.call1(("standard", props, fingers, self.sensors()))?, arguments));
         }
         let names: Vec<_> = skeleton.segments.iter().map(|segment| segment.name.clone()).collect();
         let origins = skeleton.segments.iter().map(|segment| segment.origin);
@@ -234,4 +245,27 @@ fn origins_of(names: &[String], given: &Bound<'_, PyAny>) -> PyResult<Vec<Option
     }
     let origin = |row: [f64; 3]| Some(DVec3::from_array(row)).filter(|origin| !origin.is_nan());
     Ok(array.outer_iter().map(|row| origin([row[0], row[1], row[2]])).collect())
+}
+
+/// The places of the segments with these names, each once.
+fn worn(skeleton: &posewire_motion::Skeleton, names: &[String]) -> PyResult<Vec<usize>> {
+    let place = |name: &String| {
+        let unknown = || {
+            let segments: Vec<_> = skeleton.segments.iter().map(|segment| segment.name.as_str()).collect();
+            usage(
+                format!("expected names of segments as the sensors, found {name:?}"),
+                format!("the segments are {}", segments.join(", ")),
+            )
+        };
+        skeleton.segment(name).ok_or_else(unknown)
+    };
+    let places = names.iter().map(place).collect::<PyResult<Vec<_>>>()?;
+    let twice = (0..places.len()).find(|&this| places[..this].contains(&places[this]));
+    twice.map_or(Ok(places), |this| {
+        let message = format!(
+            "expected each sensor on a segment of its own, found {:?} twice",
+            names[this]
+        );
+        Err(usage(message, "a segment wears one motion tracker"))
+    })
 }

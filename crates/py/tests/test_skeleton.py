@@ -71,6 +71,7 @@ def test_skeletons_are_equal_when_what_they_hold_is():
     [
         posewire.Skeleton.standard(),
         posewire.Skeleton.standard(2, fingers=True),
+        posewire.Skeleton.standard(sensors=["Head", "Pelvis"]),
         posewire.Skeleton(ARM, [None, 0, 1], [[0, 0, 0], [0, 0, 1], [np.nan] * 3]),
     ],
 )
