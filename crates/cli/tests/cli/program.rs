@@ -12,6 +12,17 @@ pub(crate) struct Ended {
     pub(crate) err: String,
 }
 
+impl Ended {
+    /// It ended well, printed this and said nothing.
+    pub(crate) fn with(out: &str) -> Self {
+        Self {
+            code: Some(0),
+            out: out.to_owned(),
+            err: String::new(),
+        }
+    }
+}
+
 /// Runs the program in a folder with these arguments and this standard input.
 pub(crate) fn posewire(folder: &Path, arguments: &[&str], input: &[u8]) -> Ended {
     let program = env!("CARGO_BIN_EXE_posewire");

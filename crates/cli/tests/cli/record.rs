@@ -1,6 +1,7 @@
 //! `posewire record`, and `posewire inspect` of what it wrote.
 
 use crate::program::{assert_documented, assert_fits, objects, posewire};
+use crate::refusals::assert_refused;
 use crate::running::{Running, port};
 use posewire::recording::Survey;
 use std::fs;
@@ -227,13 +228,7 @@ fn what_cannot_be_recorded_is_refused() {
             "give a file that posewire record has written",
         ),
     ] {
-        let ended = posewire(folder.path(), arguments, b"");
-        assert_eq!(ended.code, Some(code), "{arguments:?}: {}", ended.err);
-        assert!(
-            ended.err.contains(error) && ended.err.contains(help),
-            "{arguments:?}: {}",
-            ended.err
-        );
+        assert_refused(folder.path(), arguments, code, error, help);
     }
     assert_eq!(fs::read(folder.path().join("there.mcap")).unwrap(), b"precious");
 }

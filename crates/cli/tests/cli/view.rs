@@ -3,6 +3,7 @@
 
 use crate::program::posewire;
 use crate::record::Recorder;
+use crate::refusals::assert_refused;
 use crate::running::Running;
 use crate::takes::small_take;
 use std::fs;
@@ -197,12 +198,6 @@ fn what_cannot_be_shown_is_refused_with_help() {
             "as in --view=127.0.0.1:",
         ),
     ] {
-        let ended = posewire(folder.path(), arguments, b"");
-        assert_eq!(ended.code, Some(code), "{arguments:?}: {}", ended.err);
-        assert!(
-            ended.err.contains(error) && ended.err.contains(help),
-            "{arguments:?}: {}",
-            ended.err
-        );
+        assert_refused(folder.path(), arguments, code, error, help);
     }
 }
