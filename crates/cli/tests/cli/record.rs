@@ -7,11 +7,10 @@ use posewire::recording::Survey;
 use std::fs;
 use std::net::UdpSocket;
 use std::path::Path;
-#[cfg(unix)]
-use std::process::Command;
-use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
+#[cfg(unix)]
+use std::{process::Command, sync::mpsc};
 
 /// `posewire record`, recording.
 pub(crate) struct Recorder {

@@ -15,6 +15,7 @@ use std::path::Path;
 struct Viewed {
     /// Where, as `127.0.0.1:9780`.
     address: String,
+    #[cfg_attr(not(unix), expect(dead_code, reason = "it is there to end with the test"))]
     running: Running,
 }
 
