@@ -1,6 +1,7 @@
 //! A program as a suit or a camera system.
 
 mod frame;
+mod numbers;
 
 use crate::error::{exception, raised, usage};
 use crate::section::named;
@@ -182,6 +183,10 @@ enum Ended {
     Failed(posewire::Error),
 }
 
+fn closed() -> PyErr {
+    exception("ClosedError", "the streamer is closed".to_owned(), None)
+}
+
 fn finish(Running { session, feed }: Running) -> posewire::Result<()> {
     drop(feed);
     session.wait().map(drop)
@@ -225,12 +230,15 @@ impl Streamer {
             let message = format!("there are {} subjects, found number {subject}", self.subjects.len());
             return Err(usage(message, "they are counted from 0, in the order of names="));
         };
+        if self.lock().is_none() {
+            return Err(closed());
+        }
+        let sections = named_sections(sections)?;
         let mut frame = Frame::new(Arc::clone(of));
         set(&mut frame, Section::Position, position)?;
         set(&mut frame, Section::Orientation, orientation)?;
-        for (name, numbers) in sections.into_iter().flatten() {
-            let section = named(&[name.extract::<String>()?])?[0];
-            set(&mut frame, section, &numbers)?;
+        for (section, numbers) in &sections {
+            set(&mut frame, *section, numbers)?;
         }
         frame.sample = self.number(subject, sample);
         let time = time.unwrap_or(f64::from(frame.sample) / self.rate);
@@ -241,7 +249,7 @@ impl Streamer {
             )
         })?;
         py.detach(|| self.push(frame)).map_err(|ended| match ended {
-            Ended::Closed => exception("ClosedError", "the streamer is closed".to_owned(), None),
+            Ended::Closed => closed(),
             Ended::Failed(error) => raised(&error),
         })
     }
@@ -267,4 +275,12 @@ impl Streamer {
     fn __repr__(&self) -> String {
         format!("<posewire.Streamer to {}>", self.urls.join(", "))
     }
+}
+
+/// Sections by their names, in the order of [`Section::ALL`], in which one follows what it needs.
+fn named_sections<'py>(given: Option<&Bound<'py, PyDict>>) -> PyResult<Vec<(Section, Bound<'py, PyAny>)>> {
+    let section = |(name, numbers): (Bound<'py, PyAny>, _)| Ok((named(&[name.extract()?])?[0], numbers));
+    let mut sections = given.into_iter().flatten().map(section).collect::<PyResult<Vec<_>>>()?;
+    sections.sort_by_key(|(section, _)| *section);
+    Ok(sections)
 }
