@@ -93,3 +93,99 @@ def test_a_quaternion_that_is_nearly_one_is_made_one(looped):
     turned = np.float32([0.6, 0.8, 0, 0]).astype(float)
     streamer.send(np.zeros((23, 3)), np.tile(turned, (23, 1)))
     np.testing.assert_array_equal(stream.next(timeout=10).orientation[3], turned)
+
+
+def numbers(take, *sections, place=100):
+    """The numbers of sections of a sample."""
+    return {section: take[section][place] for section in sections}
+
+
+POSE = ("position", "orientation")
+TRACKERS = ("sensor_orientation", "sensor_free_acceleration", "sensor_magnetic_field")
+INERTIAL = (*TRACKERS, "sensor_acceleration", "sensor_angular_velocity")
+CENTER = ("center_of_mass", "center_of_mass_velocity", "center_of_mass_acceleration")
+
+
+@pytest.mark.parametrize(
+    ("types", "sections", "message"),
+    [
+        (None, (*POSE, "velocity"), "velocity is not sent: datagram type 21 carries it, and those that are sent are 02,12"),
+        (None, ("sensor_orientation",), 'types="02,12,13,20,23,24,25" sends it'),
+        ("20", POSE, "position is not sent: datagram type 01,02,05,21 carries it"),
+        ("all", (*POSE, "velocity"), "type 21 carries it only together with acceleration"),
+        ("all", ("position",), "only together with orientation"),
+        ("all", (*POSE, "angular_acceleration"), "give angular_velocity= as well"),
+        ("all", ("sensor_orientation",), "sensor_free_acceleration and sensor_magnetic_field"),
+        ("all", (*TRACKERS, "sensor_acceleration"), "only together with sensor_angular_velocity"),
+        ("all", ("ergonomic_angles",), "only together with joint_angles"),
+        ("all", ("joint_angles_xzy",), "neither MXTP nor NatNet has a place for it"),
+        ("all", CENTER[:2], "only together with center_of_mass_acceleration"),
+        ("all", CENTER[1:], "expected the position of the centre of mass"),
+        ("all", (), "expected something to send"),
+    ],
+)
+def test_what_the_types_do_not_carry_is_refused(walk, types, sections, message):
+    with posewire.streamer("mxtp://127.0.0.1:9", types=types) as streamer:
+        with pytest.raises(posewire.UsageError, match=message):
+            streamer.send(**numbers(walk, *sections))
+
+
+def test_what_natnet_does_not_carry_is_refused(walk):
+    natnet = "natnet://127.0.0.1:0?data-port=0"
+    given = numbers(walk, *POSE, "velocity", "acceleration")
+    with posewire.streamer(natnet) as streamer:
+        with pytest.raises(posewire.UsageError, match="velocity is not sent: NatNet has no place for it"):
+            streamer.send(**given)
+        with pytest.raises(posewire.UsageError, match="expected the orientation of Pelvis beside its position"):
+            streamer.send(walk.position[0])
+    # Beside a target that has a place for it, it is sent there.
+    with posewire.listen("mxtp://127.0.0.1:0") as stream:
+        with posewire.streamer(natnet, stream.url, types="all") as streamer:
+            streamer.send(**given)
+            assert "velocity" in stream.next(timeout=10).sections
+
+
+def test_contacts_and_events_have_no_place_on_the_wire(to_nobody, walk):
+    for name in ["contacts", "events"]:
+        with pytest.raises(posewire.UsageError, match=f"{name} cannot be sent: neither MXTP nor NatNet"):
+            to_nobody.send(walk.position[0], walk.orientation[0], **{name: [True] * 4})
+
+
+def test_half_of_what_is_sent_together_is_refused(walk):
+    orientation, angles = walk.orientation[0].copy(), walk.ergonomic_angles()[0].copy()
+    orientation[6] = angles[2] = np.nan
+    with posewire.streamer("mxtp://127.0.0.1:9", types="all") as streamer:
+        with pytest.raises(posewire.UsageError, match="expected the orientation of Head beside its position, found none"):
+            streamer.send(walk.position[0], orientation)
+        with pytest.raises(posewire.UsageError, match="all the ergonomic angles or none"):
+            streamer.send(joint_angles=walk.joint_angles()[0], ergonomic_angles=angles)
+
+
+def test_sensors_arrive_at_the_segments_that_wear_them(walk):
+    skeleton = posewire.Skeleton.standard(sensors=["Head", "Pelvis"])
+    with posewire.listen("mxtp://127.0.0.1:0") as stream:
+        with posewire.streamer(stream.url, skeleton=skeleton, types="02,13,23") as streamer:
+            rows = {section: take_rows[[2, 0]] for section, take_rows in numbers(walk, *INERTIAL).items()}
+            streamer.send(walk.position[100], walk.orientation[100], **rows)
+            frame = stream.next(timeout=10)
+    worn = [frame.skeleton.sensors.index(name) for name in skeleton.sensors]
+    for section in INERTIAL:
+        np.testing.assert_allclose(frame[section][worn], rows[section], rtol=1e-7, atol=1e-37)
+        assert np.isnan(np.delete(frame[section], worn, axis=0)).all()
+
+
+def test_the_clocks_of_the_program_are_sent(walk):
+    with posewire.listen("mxtp://127.0.0.1:0") as stream:
+        with posewire.streamer(stream.url) as streamer:
+            streamer.send(**numbers(walk, *POSE), time=12.345, timecode=3661.5, sample=70)
+            frame = stream.next(timeout=10)
+            assert (frame.sample, frame.time, frame.timecode) == (70, 12.345, 3661.5)
+            with pytest.raises(posewire.UsageError, match="at most 4294967.295 seconds"):
+                streamer.send(**numbers(walk, *POSE), time=1.7e9)
+            with pytest.raises(posewire.UsageError, match="expected seconds from 0 on as the time, found -1"):
+                streamer.send(**numbers(walk, *POSE), time=-1)
+            with pytest.raises(posewire.UsageError, match="from 0 to 86400 as the timecode"):
+                streamer.send(**numbers(walk, *POSE), timecode=1e5)
+        with posewire.streamer(stream.url, types="02") as streamer:
+            with pytest.raises(posewire.UsageError, match="timecode is not sent: datagram type 25"):
+                streamer.send(**numbers(walk, *POSE), timecode=1)

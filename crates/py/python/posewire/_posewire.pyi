@@ -225,12 +225,13 @@ class Streamer:
     def skeleton(self) -> Skeleton | None: ...
     def send(
         self,
-        position: npt.ArrayLike,
-        orientation: npt.ArrayLike,
+        position: npt.ArrayLike | None = None,
+        orientation: npt.ArrayLike | None = None,
         *,
-        subject: int = 0,
+        subject: int | str | None = None,
         sample: int | None = None,
         time: float | None = None,
+        timecode: float | None = None,
         **sections: npt.ArrayLike,
     ) -> None: ...
     def close(self) -> None: ...

@@ -1,9 +1,11 @@
 //! From arrays of numpy to a frame.
 
+use super::carrying::Carrying;
 use super::numbers::{quaternions, vectors};
 use crate::error::usage;
-use posewire_motion::{CenterOfMass, DVec3, Frame, Section};
+use posewire_motion::{CenterOfMass, DVec3, Frame, Section, Timecode};
 use pyo3::prelude::*;
+use std::time::Duration;
 
 /// Gives a frame the numbers of a section.
 pub(super) fn set(frame: &mut Frame, section: Section, numbers: &Bound<'_, PyAny>) -> PyResult<()> {
@@ -58,4 +60,29 @@ fn set_center_of_mass(frame: &mut Frame, section: Section, value: Option<DVec3>)
         }
     }
     Ok(())
+}
+
+/// The program's clock.
+pub(super) fn clock(seconds: f64, carrying: Carrying) -> PyResult<Duration> {
+    let wrong = |expected: &str, help: &str| usage(format!("expected {expected} as the time, found {seconds}"), help);
+    let time = Duration::try_from_secs_f64(seconds)
+        .map_err(|_| wrong("seconds from 0 on", "leave it out to go by the rate"))?;
+    if carrying.mxtp.is_some() && time.as_millis() > u32::MAX.into() {
+        return Err(wrong(
+            "at most 4294967.295 seconds, which MXTP's clock can tell,",
+            "count from the beginning of the stream; timecode= is for the time of day",
+        ));
+    }
+    Ok(time)
+}
+
+/// A time of day.
+pub(super) fn timecode(seconds: f64) -> PyResult<Timecode> {
+    if !(0.0..86_400.0).contains(&seconds) {
+        return Err(usage(
+            format!("expected seconds from 0 to 86400 as the timecode, found {seconds}"),
+            "they are counted from midnight, UTC: time.time() % 86400",
+        ));
+    }
+    Ok(Timecode::from_milliseconds((seconds * 1000.0).round() as u64))
 }

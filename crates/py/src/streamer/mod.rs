@@ -1,12 +1,14 @@
 //! A program as a suit or a camera system.
 
+mod carrying;
 mod frame;
 mod numbers;
 
 use crate::error::{exception, raised, usage};
 use crate::section::named;
 use crate::skeleton::Skeleton;
-use frame::set;
+use carrying::Carrying;
+use frame::{clock, set, timecode};
 use posewire::endpoint::Endpoint;
 use posewire::sink::{MxtpSink, MxtpSinkOptions, NatNetSink, NatNetSinkOptions};
 use posewire::stop::Stop;
@@ -55,6 +57,10 @@ pub(crate) fn streamer(
     if let Some(types) = types {
         options.types = message_types(types)?;
     }
+    let carrying = Carrying {
+        mxtp: urls.iter().any(|url| !is_natnet(url)).then_some(options.types),
+        natnet: urls.iter().any(|url| is_natnet(url)),
+    };
     let opened = py.detach(|| open(&urls, &subjects, options, rate));
     let (sinks, urls) = opened.map_err(|error| raised(&error))?;
     if sinks.is_empty() {
@@ -70,8 +76,13 @@ pub(crate) fn streamer(
         rate,
         next: Mutex::new(vec![0; subjects.len()]),
         subjects,
+        carrying,
         running: Mutex::new(Some(Running { session, feed })),
     })
+}
+
+fn is_natnet(url: &str) -> bool {
+    matches!(url.parse(), Ok(Endpoint::NatNet(_)))
 }
 
 fn message_types(text: &str) -> PyResult<MessageTypes> {
@@ -138,6 +149,7 @@ pub(crate) struct Streamer {
     urls: Vec<String>,
     rate: f64,
     subjects: Vec<Arc<Subject>>,
+    carrying: Carrying,
     /// Per subject: the number of its next sample.
     next: Mutex<Vec<u32>>,
     running: Mutex<Option<Running>>,
@@ -159,6 +171,33 @@ impl Streamer {
         let sample = sample.unwrap_or(next[subject]);
         next[subject] = sample.wrapping_add(1);
         sample
+    }
+
+    /// The place of the subject with this number or name; the first if left out.
+    fn place(&self, subject: Option<&Bound<'_, PyAny>>) -> PyResult<usize> {
+        let Some(subject) = subject else { return Ok(0) };
+        let by_name = |name: &String| self.subjects.iter().position(|subject| subject.name == *name);
+        let found = match subject.extract::<String>() {
+            Ok(name) => by_name(&name),
+            Err(_) => subject
+                .extract::<usize>()
+                .ok()
+                .filter(|place| *place < self.subjects.len()),
+        };
+        found.ok_or_else(|| {
+            let names: Vec<_> = self
+                .subjects
+                .iter()
+                .map(|subject| format!("{:?}", subject.name))
+                .collect();
+            let found = subject
+                .repr()
+                .map_or_else(|_| "another".to_owned(), |repr| repr.to_string());
+            usage(
+                format!("expected one of the subjects {}, found {found}", names.join(", ")),
+                "give its name, or its place in names=, counted from 0",
+            )
+        })
     }
 
     fn push(&self, frame: Frame) -> Result<(), Ended> {
@@ -207,47 +246,60 @@ impl Streamer {
         subject.map(|subject| Skeleton { subject })
     }
 
-    /// Sends a sample of the subject at a place of `names`.
+    /// Sends a sample of the subject at a place of `names`, or of that name.
     ///
-    /// `position` is (segments, 3) in metres, `orientation` (segments, 4), w first; NaN is not tracked. `sample` is its number, one
-    /// more than the last if left out; `time` is in seconds, the number by the rate if left out. Other sections come by their names:
-    /// velocity=, joint_angles=, center_of_mass= ...
+    /// `position` is (segments, 3) in metres, `orientation` (segments, 4), w first; NaN is not tracked. Other sections come by their
+    /// names: velocity=, joint_angles=, sensor_orientation= ... Whatever is given is sent to a target that has a place for it. Quaternions
+    /// whose length is within 0.001 of 1 are made so long.
     ///
-    /// Raises UsageError for arrays that do not fit the skeleton, ClosedError after the end, and what ended the sending.
-    #[pyo3(signature = (position, orientation, *, subject = 0, sample = None, time = None, **sections))]
+    /// `sample` is the number of the sample, one more than the last if left out; `time` is the program's own clock in seconds from 0, the
+    /// number by the rate if left out; `timecode` is the time of day, UTC, in seconds since midnight.
+    ///
+    /// Raises UsageError for arrays that do not fit the skeleton and for what no target has a place for, ClosedError after the end,
+    /// and what ended the sending.
+    #[pyo3(signature = (position = None, orientation = None, *, subject = None, sample = None, time = None, timecode = None,
+        **sections))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn send(
         &self,
         py: Python<'_>,
-        position: &Bound<'_, PyAny>,
-        orientation: &Bound<'_, PyAny>,
-        subject: usize,
+        position: Option<&Bound<'_, PyAny>>,
+        orientation: Option<&Bound<'_, PyAny>>,
+        subject: Option<&Bound<'_, PyAny>>,
         sample: Option<u32>,
         time: Option<f64>,
+        timecode: Option<f64>,
         sections: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<()> {
-        let Some(of) = self.subjects.get(subject) else {
-            let message = format!("there are {} subjects, found number {subject}", self.subjects.len());
-            return Err(usage(message, "they are counted from 0, in the order of names="));
-        };
         if self.lock().is_none() {
             return Err(closed());
         }
-        let sections = named_sections(sections)?;
-        let mut frame = Frame::new(Arc::clone(of));
-        set(&mut frame, Section::Position, position)?;
-        set(&mut frame, Section::Orientation, orientation)?;
+        let place = self.place(subject)?;
+        let mut frame = Frame::new(Arc::clone(&self.subjects[place]));
+        let poses = [(Section::Position, position), (Section::Orientation, orientation)];
+        let poses = poses
+            .into_iter()
+            .filter_map(|(section, numbers)| Some((section, numbers?.clone())));
+        let sections: Vec<_> = poses.chain(named_sections(sections)?).collect();
+        if sections.is_empty() {
+            return Err(usage(
+                "expected something to send, found nothing",
+                "give position and orientation, or sections by their names: joint_angles=",
+            ));
+        }
         for (section, numbers) in &sections {
             set(&mut frame, *section, numbers)?;
         }
-        frame.sample = self.number(subject, sample);
-        let time = time.unwrap_or(f64::from(frame.sample) / self.rate);
-        frame.time = Duration::try_from_secs_f64(time).map_err(|_| {
-            usage(
-                format!("expected seconds as the time, found {time}"),
-                "leave it out to go by the rate",
-            )
-        })?;
+        let given: Vec<_> = sections.iter().map(|(section, _)| *section).collect();
+        self.carrying.check(&frame, &given)?;
+        if let Some(seconds) = timecode {
+            frame.timecode = Some(self::timecode(seconds)?);
+            self.carrying.check_timecode()?;
+        }
+        let time = time.map(|time| clock(time, self.carrying)).transpose()?;
+        frame.sample = self.number(place, sample);
+        let by_rate = || Duration::from_secs_f64(f64::from(frame.sample) / self.rate);
+        frame.time = time.unwrap_or_else(by_rate);
         py.detach(|| self.push(frame)).map_err(|ended| match ended {
             Ended::Closed => closed(),
             Ended::Failed(error) => raised(&error),
@@ -279,8 +331,27 @@ impl Streamer {
 
 /// Sections by their names, in the order of [`Section::ALL`], in which one follows what it needs.
 fn named_sections<'py>(given: Option<&Bound<'py, PyDict>>) -> PyResult<Vec<(Section, Bound<'py, PyAny>)>> {
-    let section = |(name, numbers): (Bound<'py, PyAny>, _)| Ok((named(&[name.extract()?])?[0], numbers));
-    let mut sections = given.into_iter().flatten().map(section).collect::<PyResult<Vec<_>>>()?;
+    let mut sections = given
+        .into_iter()
+        .flatten()
+        .map(named_section)
+        .collect::<PyResult<Vec<_>>>()?;
     sections.sort_by_key(|(section, _)| *section);
     Ok(sections)
 }
+
+fn named_section<'py>(
+    (name, numbers): (Bound<'py, PyAny>, Bound<'py, PyAny>),
+) -> PyResult<(Section, Bound<'py, PyAny>)> {
+    let name = name.extract::<String>()?;
+    if UNSENDABLE.contains(&name.as_str()) {
+        return Err(usage(
+            format!("{name} cannot be sent: neither MXTP nor NatNet has a place for them"),
+            "leave them out; files hold them",
+        ));
+    }
+    Ok((named(&[name])?[0], numbers))
+}
+
+/// What a frame of a file can have besides sections, and no protocol carries.
+const UNSENDABLE: [&str; 2] = ["contacts", "events"];
