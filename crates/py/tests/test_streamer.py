@@ -1,5 +1,8 @@
 """A program as a suit: what it gives is sent as it is, or refused with a reason."""
 
+import socket
+import time
+
 import numpy as np
 import pytest
 
@@ -189,3 +192,78 @@ def test_the_clocks_of_the_program_are_sent(walk):
         with posewire.streamer(stream.url, types="02") as streamer:
             with pytest.raises(posewire.UsageError, match="timecode is not sent: datagram type 25"):
                 streamer.send(**numbers(walk, *POSE), timecode=1)
+
+
+def until(is_so):
+    """Asks until it is so; numbers of a streamer are brought up to date ten times a second."""
+    end = time.monotonic() + 60
+    while not is_so():
+        assert time.monotonic() < end
+
+
+def test_what_a_slow_receiver_misses_is_counted(walk):
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        with posewire.streamer(f"mxtp+tcp://127.0.0.1:{server.getsockname()[1]}", types="all") as streamer:
+            assert streamer.dropped == 0 and streamer.progress()["kind"] == "stream"
+            given = numbers(walk, *POSE, "velocity", "acceleration", "joint_angles")
+            connection, _ = server.accept()
+            # It takes nothing: the system's buffers fill, then the queue of 256 samples, and sending goes on.
+            until(lambda: streamer.send(**given) or streamer.dropped > 0)
+            target = streamer.progress()["targets"][0]
+            assert target["dropped"] > 0 and target["peers"] == 1
+            connection.close()
+
+
+def test_a_receiver_that_has_gone_is_told(walk):
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        url = f"mxtp+tcp://127.0.0.1:{server.getsockname()[1]}"
+        with posewire.streamer(url) as streamer:
+            server.accept()[0].close()
+            server.close()
+            until(lambda: streamer.send(**numbers(walk, *POSE)) or streamer.dropped > 0)
+            until(lambda: len(streamer.notices) == 3)
+            connected, lost, refused = streamer.notices
+            assert connected.startswith("connected to 127.0.0.1:")
+            assert lost.startswith("lost the connection to 127.0.0.1:") and refused.endswith("; trying again")
+        dropped = streamer.dropped
+        assert streamer.closed and dropped > 0 and streamer.progress()["lost"] == dropped
+
+
+def test_natnet_clients_are_told_of(walk):
+    with posewire.streamer("natnet://127.0.0.1:0?data-port=0") as streamer:
+        with posewire.listen(streamer.urls[0]) as stream:
+            until(lambda: streamer.send(**numbers(walk, *POSE)) or stream.latest(timeout=0.01))
+            until(lambda: streamer.notices)
+            assert streamer.notices[0].startswith("connected to 127.0.0.1:")
+            until(lambda: [client["frames"] > 0 for client in streamer.progress()["targets"][0]["clients"]] == [True])
+        until(lambda: "has left" in streamer.notices[-1])
+
+
+def nowhere():
+    """An address that the system has no way to, if there is one."""
+    try:
+        with socket.socket(socket.AF_INET6, socket.SOCK_DGRAM) as probe:
+            probe.sendto(b"", ("2001:db8::1", 9763))
+    except OSError:
+        return "mxtp://[2001:db8::1]:9763"
+    pytest.skip("this machine has a way to every address")
+
+
+def test_what_ends_it_is_raised_by_the_next_sample(walk):
+    streamer = None
+    with pytest.raises(posewire.NetworkError, match="cannot send to") as raised:
+        with posewire.streamer(nowhere()) as streamer:
+            until(lambda: streamer.send(**numbers(walk, *POSE)))
+    if streamer is None:
+        pytest.skip("it could not even be opened")
+    assert streamer.closed and raised.value.message in streamer.notices
+    with pytest.raises(posewire.ClosedError, match="the streamer is closed: cannot send to"):
+        streamer.send(**numbers(walk, *POSE))
+    streamer.close()
+
+
+def test_close_raises_what_no_sample_has_told(walk):
+    with pytest.raises(posewire.NetworkError, match="cannot send to"):
+        streamer = posewire.streamer(nowhere())
+        streamer.send(**numbers(walk, *POSE))
+        streamer.close()

@@ -3,6 +3,7 @@
 mod carrying;
 mod frame;
 mod numbers;
+mod told;
 
 use crate::error::{exception, raised, usage};
 use crate::section::named;
@@ -10,7 +11,7 @@ use crate::skeleton::Skeleton;
 use carrying::Carrying;
 use frame::{clock, set, timecode};
 use posewire::endpoint::Endpoint;
-use posewire::sink::{MxtpSink, MxtpSinkOptions, NatNetSink, NatNetSinkOptions};
+use posewire::sink::{MxtpSink, MxtpSinkOptions, NatNetSink, NatNetSinkOptions, Progress};
 use posewire::stop::Stop;
 use posewire::{Feed, Item, Session, Sink};
 use posewire_motion::{Frame, Section, Subject};
@@ -19,6 +20,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
+use told::Told;
 
 /// Opens targets that samples of the program's own are sent to: "mxtp://HOST:PORT", "mxtp+tcp://HOST:PORT", and
 /// "natnet://0.0.0.0", which is a server.
@@ -62,7 +64,7 @@ pub(crate) fn streamer(
         natnet: urls.iter().any(|url| is_natnet(url)),
     };
     let opened = py.detach(|| open(&urls, &subjects, options, rate));
-    let (sinks, urls) = opened.map_err(|error| raised(&error))?;
+    let (sinks, told) = opened.map_err(|error| raised(&error))?;
     if sinks.is_empty() {
         return Err(usage(
             "expected where to send to, found nothing",
@@ -72,7 +74,9 @@ pub(crate) fn streamer(
     let (session, mut feed) = Session::fed(sinks, Stop::new());
     feed.push(subjects.iter().cloned().map(Item::Subject));
     Ok(Streamer {
-        urls,
+        urls: urls_of(&told),
+        told,
+        failure: Mutex::new(None),
         rate,
         next: Mutex::new(vec![0; subjects.len()]),
         subjects,
@@ -104,16 +108,16 @@ fn subject(id: u32, name: &str, skeleton: &posewire_motion::Skeleton, rate: f64)
 
 type Sinks = Vec<Box<dyn Sink>>;
 
-/// Opens the sinks, and tells where they send to.
+/// Opens the sinks, and tells how they are doing.
 fn open(
     urls: &[String],
     subjects: &[Arc<Subject>],
     options: MxtpSinkOptions,
     rate: f64,
-) -> posewire::Result<(Sinks, Vec<String>)> {
+) -> posewire::Result<(Sinks, Vec<Told>)> {
     let mut mxtp = Vec::new();
     let mut sinks = Sinks::new();
-    let mut progress = Vec::new();
+    let mut told = Vec::new();
     for url in urls {
         let target = url.parse::<Endpoint>()?;
         let Endpoint::NatNet(address) = target else {
@@ -126,27 +130,29 @@ fn open(
         };
         let mut sink = NatNetSink::open(&address, options)?;
         subjects.iter().try_for_each(|subject| sink.describe(subject))?;
-        progress.push(sink.progress());
+        told.push(Told::of_natnet(&sink));
         sinks.push(Box::new(sink));
     }
     if !mxtp.is_empty() {
         let sink = MxtpSink::open(&mxtp, options)?;
-        progress.push(sink.progress());
+        told.push(Told::of_mxtp(&sink));
         sinks.push(Box::new(sink));
     }
-    let targets = progress.iter().flat_map(|progress| {
-        let progress = progress.lock().unwrap_or_else(PoisonError::into_inner);
-        let endpoints = progress.targets.iter().map(|target| target.endpoint.clone());
-        endpoints.collect::<Vec<_>>()
-    });
-    let targets = targets.collect();
-    Ok((sinks, targets))
+    Ok((sinks, told))
+}
+
+fn urls_of(told: &[Told]) -> Vec<String> {
+    let targets = told::progress(told).targets.into_iter();
+    targets.map(|target| target.endpoint).collect()
 }
 
 /// Sends samples as a suit does. Use it as a context manager, or close it.
 #[pyclass(frozen, module = "posewire")]
 pub(crate) struct Streamer {
     urls: Vec<String>,
+    told: Vec<Told>,
+    /// What ended it.
+    failure: Mutex<Option<posewire::Error>>,
     rate: f64,
     subjects: Vec<Arc<Subject>>,
     carrying: Carrying,
@@ -212,23 +218,38 @@ impl Streamer {
         if feed.push([item]) {
             return Ok(());
         }
-        let failed = running.take().and_then(|running| finish(running).err());
-        failed.map_or(Err(Ended::Closed), |error| Err(Ended::Failed(error)))
+        let running = running.take();
+        let failed = running.map_or(Ok(()), |running| self.finish(running));
+        Err(failed.map_or_else(Ended::Failed, |()| Ended::Closed))
+    }
+
+    /// Ends the threads, and remembers what had ended them before, if something had.
+    fn finish(&self, Running { session, feed }: Running) -> posewire::Result<()> {
+        drop(feed);
+        let ended = session.wait().map(drop);
+        self.told.iter().for_each(Told::end);
+        *self.lock_failure() = ended.clone().err();
+        ended
+    }
+
+    fn lock_failure(&self) -> MutexGuard<'_, Option<posewire::Error>> {
+        self.failure.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn closed_error(&self) -> PyErr {
+        let failure = self.lock_failure();
+        let reason = failure.as_ref().map(|error| format!(": {error}")).unwrap_or_default();
+        exception("ClosedError", format!("the streamer is closed{reason}"), None)
+    }
+
+    fn progress_now(&self) -> Progress {
+        told::progress(&self.told)
     }
 }
 
 enum Ended {
     Closed,
     Failed(posewire::Error),
-}
-
-fn closed() -> PyErr {
-    exception("ClosedError", "the streamer is closed".to_owned(), None)
-}
-
-fn finish(Running { session, feed }: Running) -> posewire::Result<()> {
-    drop(feed);
-    session.wait().map(drop)
 }
 
 #[pymethods]
@@ -271,8 +292,8 @@ impl Streamer {
         timecode: Option<f64>,
         sections: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<()> {
-        if self.lock().is_none() {
-            return Err(closed());
+        if self.closed() {
+            return Err(self.closed_error());
         }
         let place = self.place(subject)?;
         let mut frame = Frame::new(Arc::clone(&self.subjects[place]));
@@ -301,16 +322,45 @@ impl Streamer {
         let by_rate = || Duration::from_secs_f64(f64::from(frame.sample) / self.rate);
         frame.time = time.unwrap_or_else(by_rate);
         py.detach(|| self.push(frame)).map_err(|ended| match ended {
-            Ended::Closed => closed(),
+            Ended::Closed => self.closed_error(),
             Ended::Failed(error) => raised(&error),
         })
     }
 
-    /// Sends what is on its way and ends it.
+    /// Datagrams, and of TCP samples, that did not reach their target for a reason on this side: a TCP peer was too slow for them or
+    /// away, the network had no room, the system refused them. What gets lost behind that only the receiver can know.
+    #[getter]
+    fn dropped(&self, py: Python<'_>) -> u64 {
+        py.detach(|| self.progress_now().lost())
+    }
+
+    /// How far it has come, as `posewire stream --json` tells it: a dict of frames, lost, lateness_ms, targets with their numbers and
+    /// their clients, and what is left_out. It goes on until it is closed, and stays after that.
+    fn progress<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let progress = py.detach(|| self.progress_now());
+        told::record(py, &progress)
+    }
+
+    /// What has happened, target by target: who connected and left, what failed, and what a target has no place for. The newest
+    /// 100 of each target, the newest last.
+    #[getter]
+    fn notices(&self, py: Python<'_>) -> Vec<String> {
+        let mut notices = told::notices(&py.detach(|| self.progress_now()));
+        notices.extend(self.lock_failure().as_ref().map(ToString::to_string));
+        notices
+    }
+
+    /// Whether nothing can be sent any more.
+    #[getter]
+    fn closed(&self) -> bool {
+        self.running.try_lock().is_ok_and(|running| running.is_none())
+    }
+
+    /// Sends what is on its way and ends it. Raises what had ended it before, unless that was raised already.
     fn close(&self, py: Python<'_>) -> PyResult<()> {
         let finished = py.detach(|| {
             let running = self.lock().take();
-            running.map_or(Ok(()), finish)
+            running.map_or(Ok(()), |running| self.finish(running))
         });
         finished.map_err(|error| raised(&error))
     }
@@ -319,9 +369,12 @@ impl Streamer {
         this
     }
 
-    #[pyo3(signature = (*_raised))]
-    fn __exit__(&self, py: Python<'_>, _raised: &Bound<'_, PyTuple>) -> PyResult<()> {
-        self.close(py)
+    #[pyo3(signature = (*raised))]
+    fn __exit__(&self, py: Python<'_>, raised: &Bound<'_, PyTuple>) -> PyResult<()> {
+        let closed = self.close(py);
+        // What is raised inside is what went wrong first.
+        let is_raised = raised.get_item(0).is_ok_and(|kind| !kind.is_none());
+        if is_raised { Ok(()) } else { closed }
     }
 
     fn __repr__(&self) -> String {
