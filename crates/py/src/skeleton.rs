@@ -2,7 +2,9 @@
 
 use crate::array;
 use crate::error::usage;
+use crate::number::Whole;
 use posewire_motion::Subject;
+use posewire_motion::standard::MAX_PROPS;
 use pyo3::prelude::*;
 use std::sync::Arc;
 
@@ -15,13 +17,17 @@ pub(crate) struct Skeleton {
 
 #[pymethods]
 impl Skeleton {
-    /// MVN's skeleton: 23 body segments and 22 joints, then `props` props, then, with `fingers`, 20 segments of each hand.
+    /// MVN's skeleton: 23 body segments and 22 joints, then up to 4 `props`, then, with `fingers`, 20 segments of each hand.
     ///
     /// `sensors` are the names of the segments that wear motion trackers, in the order of the sensors' arrays: MVN's 17 if left out.
+    ///
+    /// Raises UsageError for another number of props, and for sensors that are no segments.
     #[staticmethod]
-    #[pyo3(signature = (props = 0, fingers = false, sensors = None))]
-    fn standard(props: u8, fingers: bool, sensors: Option<Vec<String>>) -> PyResult<Self> {
-        let mut skeleton = posewire_motion::Skeleton::standard(props.into(), fingers);
+    #[pyo3(signature = (props = Whole::of(0), fingers = false, sensors = None),
+        text_signature = "(props=0, fingers=False, sensors=None)")]
+    fn standard(props: Whole, fingers: bool, sensors: Option<Vec<String>>) -> PyResult<Self> {
+        let props = props.within("props", 0..=MAX_PROPS)?;
+        let mut skeleton = posewire_motion::Skeleton::standard(props, fingers);
         if let Some(sensors) = sensors {
             skeleton.sensors = worn(&skeleton, &sensors)?;
         }
