@@ -1,6 +1,7 @@
 """The package as a whole: its command, its types, its examples and its documents."""
 
 import ast
+import importlib.metadata
 import importlib.util
 import inspect
 import os
@@ -33,6 +34,12 @@ def test_the_command_is_installed():
     command = pathlib.Path(sys.executable).with_name("posewire")
     ended = subprocess.run([command, "--version"], capture_output=True, text=True)
     assert ended.stdout == f"posewire {posewire.__version__}\n"
+
+
+def test_the_licences_come_with_the_package():
+    files = importlib.metadata.distribution("posewire").files
+    texts = {file.name: file.read_text() for file in files if file.name.startswith("LICENSE")}
+    assert texts == {name: (ROOT / name).read_text() for name in ["LICENSE-APACHE", "LICENSE-MIT"]}
 
 
 def test_a_second_command_line_in_a_process_is_refused():
