@@ -3,6 +3,7 @@
 use crate::array;
 use crate::arrow::{self, Table};
 use crate::frame::Frame;
+use crate::read::FilePath;
 use crate::section::{self, missing};
 use crate::skeleton::Skeleton;
 use crate::write::{self, Saved};
@@ -11,8 +12,8 @@ use posewire_motion::Section;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// A recorded take of one subject. Nothing changes it.
 ///
@@ -95,7 +96,7 @@ impl Take {
         self.take().sections().map(Section::name).collect()
     }
 
-    /// What was wrong with the file, where it was read with salvage and something was; else None.
+    /// What ended the file before its end, where it was read with salvage and something did; None of a whole file.
     #[getter]
     fn damage(&self) -> Option<&str> {
         self.recording.damage.as_deref()
@@ -116,12 +117,8 @@ impl Take {
     /// The source's clock, seconds since its recording began: (samples,).
     #[getter]
     fn time<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let times = self.take().times().iter();
-        array::owned(
-            py,
-            [self.take().len()],
-            times.map(std::time::Duration::as_secs_f64).collect(),
-        )
+        let times = self.take().times().iter().copied();
+        array::owned(py, [self.take().len()], times.map(seconds).collect())
     }
 
     /// The time of day, UTC, in seconds since midnight: (samples,), NaN where the source does not say.
@@ -279,10 +276,13 @@ impl Take {
 
     /// The take as a table for polars, pyarrow, DuckDB and others: polars.DataFrame(take.to_arrow()).
     ///
-    /// A row for each sample: subject, sample, time, and a column for each number, as position_Pelvis_x; units are those of the
-    /// arrays, null is not tracked. `sections` are names of sections; all of them if left out.
+    /// A row for each sample: subject, sample, time, the timecode as a time of day (UTC), and a column for each number, as
+    /// position_Pelvis_x or joint_angles_jLeftKnee_z, the flexion; units are those of the arrays, so angles are radians; null is not
+    /// tracked.
+    /// `sections` are names of sections; all of them if left out, and then `event`, with the names of those set at a sample,
+    /// and contact_LeftFoot_Heel and the like too. What no sample has is no column.
     #[pyo3(signature = (sections = None))]
-    fn to_arrow(&self, py: Python<'_>, sections: Option<Vec<String>>) -> PyResult<Table> {
+    fn to_arrow(&self, py: Python<'_>, sections: Option<Vec<String>>) -> PyResult<Py<Table>> {
         arrow::table(py, self, sections.as_deref())
     }
 
@@ -301,12 +301,12 @@ impl Take {
     fn write(
         &self,
         py: Python<'_>,
-        path: PathBuf,
+        path: FilePath,
         overwrite: bool,
         progress: Option<Py<PyAny>>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Saved> {
-        write::write(py, self, path, overwrite, progress.as_ref(), options)
+        write::write(py, self, path.0, overwrite, progress.as_ref(), options)
     }
 
     fn __len__(&self) -> usize {
@@ -318,4 +318,10 @@ impl Take {
         let (name, samples, rate) = (&take.subject.name, take.len(), take.rate);
         format!("<posewire.Take {name:?}: {samples} samples at {rate} Hz, {segments} segments>")
     }
+}
+
+/// A time in seconds: the number nearest to it, so that milliseconds are what they are divided by 1000.
+pub(crate) fn seconds(time: Duration) -> f64 {
+    // Seconds and nanoseconds by themselves would be rounded twice. Of 100 days, nanoseconds are whole numbers of f64.
+    time.as_nanos() as f64 / 1e9
 }
