@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 _Floats = npt.NDArray[np.float64]
 _Path = str | PathLike[str]
+_FilePath = str | bytes | PathLike[str] | PathLike[bytes]
 _Progress = Callable[[int, int], object]
 _Sequence = Literal["zxy", "xzy"]
 
@@ -45,6 +46,7 @@ class Table:
     @property
     def columns(self) -> list[str]: ...
     def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[Any]: ...
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
 
 @final
@@ -121,7 +123,7 @@ class Take:
     def to_arrow(self, sections: Sequence[str] | None = None) -> Table: ...
     def write(
         self,
-        path: _Path,
+        path: _FilePath,
         *,
         overwrite: bool = False,
         progress: _Progress | None = None,
@@ -254,7 +256,7 @@ class Recorder:
     ) -> None: ...
 
 def read(
-    path: _Path,
+    path: _FilePath,
     *,
     subject: str | None = None,
     progress: _Progress | None = None,
@@ -264,7 +266,7 @@ def read(
     threads: int | None = None,
 ) -> Take: ...
 def read_all(
-    path: _Path,
+    path: _FilePath,
     *,
     progress: _Progress | None = None,
     salvage: bool = False,
