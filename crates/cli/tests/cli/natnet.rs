@@ -2,7 +2,7 @@
 
 use crate::program::{Monitor, Relay, assert_documented, objects, posewire};
 use posewire_natnet::{MessageId, Packet};
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader, ErrorKind, Read};
 use std::net::{Ipv4Addr, UdpSocket};
 use std::path::Path;
 use std::process::{Child, ChildStderr, Command, Stdio};
@@ -64,6 +64,16 @@ impl Server {
     }
 }
 
+/// The length of the next datagram. A signal, as of a machine that is suspended, ends waiting with a time limit early.
+fn receive(client: &UdpSocket, buffer: &mut [u8]) -> usize {
+    loop {
+        match client.recv(buffer) {
+            Err(error) if error.kind() == ErrorKind::Interrupted => {}
+            received => return received.unwrap(),
+        }
+    }
+}
+
 #[test]
 fn a_stream_begins_when_a_client_connects_and_tells_of_it() {
     let mut server = Server::start("synthetic:walk?rate=60", &["--duration", "0.5", "--json"]);
@@ -74,7 +84,7 @@ fn a_stream_begins_when_a_client_connects_and_tells_of_it() {
     let mut buffer = vec![0; 65_535];
     let mut kinds = Vec::new();
     while kinds.last() != Some(&MessageId::DISCONNECT) {
-        let length = client.recv(&mut buffer).unwrap();
+        let length = receive(&client, &mut buffer);
         kinds.push(Packet::decode(&buffer[..length]).unwrap().id);
     }
     assert_eq!(kinds[0], MessageId::SERVER_INFO);
@@ -111,7 +121,7 @@ fn a_silent_client_is_dropped_after_the_time_that_was_set() {
     client.send_to(&[0, 0, 0, 0], server.place()).unwrap();
     let mut buffer = vec![0; 65_535];
     loop {
-        let length = client.recv(&mut buffer).unwrap();
+        let length = receive(&client, &mut buffer);
         if Packet::decode(&buffer[..length]).unwrap().id == MessageId::DISCONNECT_BY_TIMEOUT {
             break;
         }
