@@ -137,6 +137,7 @@ fn play(
     let options = PlaybackOptions {
         speed: AT_ONCE,
         only,
+        computes: false,
         ..PlaybackOptions::default()
     };
     let sources = Source::open_all(endpoint, &options)?;

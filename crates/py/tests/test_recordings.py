@@ -133,3 +133,54 @@ def test_names_need_not_be_utf8(recording, capture):
             pytest.skip("this file system wants UTF-8")
         for spelled in name, os.fsdecode(name), pathlib.Path(os.fsdecode(name)):
             assert len(posewire.read_all(spelled)) == 3
+
+
+@pytest.fixture(scope="module")
+def walked(tmp_path_factory):
+    """The walker, which has no datagrams, recorded for a moment."""
+    path = tmp_path_factory.mktemp("walked") / "walk.mcap"
+    ended = run("record", "synthetic:walk?people=2&props=1", "-o", str(path), "--duration", "0.5")
+    assert ended.returncode == 0, ended.stderr
+    return path
+
+
+def test_poses_alone_are_takes(walked, tmp_path):
+    expected = posewire.read_all("synthetic:walk?people=2&props=1", duration=2)
+    for take, walk in zip(posewire.read_all(walked), expected, strict=True):
+        assert len(take) > 60 and take.rate == 240 and take.damage is None
+        assert (take.subject, take.segments, take.joints) == (walk.subject, walk.segments, walk.joints)
+        assert take.sections == ["position", "orientation"]
+        for name in ("position", "orientation", "time"):
+            np.testing.assert_array_equal(getattr(take, name), getattr(walk, name)[take.sample])
+        angles = take.complete("joint_angles").joint_angles()
+        np.testing.assert_allclose(angles, walk.joint_angles()[take.sample], atol=1e-9)
+    short = cut(walked, "short.mcap")
+    with pytest.raises(posewire.ReadError, match="the file is damaged: the recording was cut off"):
+        posewire.read_all(short)
+    assert all(take.damage for take in posewire.read_all(short, salvage=True))
+
+
+def test_the_command_line_plays_poses_alone(walked, tmp_path):
+    ended = run("convert", str(walked), str(tmp_path / "walk.csv"))
+    assert ended.returncode == 0, ended.stderr
+    assert len(list(tmp_path.glob("walk_*.csv"))) == 2
+    ended = run("stream", str(walked), "--to", "mxtp://127.0.0.1:9")
+    assert ended.returncode == 0, ended.stderr
+    for arguments in (
+        ["replay", str(walked), "--to", "mxtp://127.0.0.1:9"],
+        ["monitor", str(walked), "--json"],
+        ["doctor", str(walked)],
+        ["convert", str(walked), str(tmp_path / "walk.pcapng")],
+        ["convert", str(walked), str(tmp_path / "other.mcap")],
+    ):
+        ended = run(*arguments)
+        assert ended.returncode == 1, arguments
+        assert f"error: {walked}: expected datagrams, found poses alone" in ended.stderr
+        assert f"help: posewire stream {walked} --to mxtp://127.0.0.1 sends them" in ended.stderr
+    assert not list(tmp_path.glob("*.pcapng")) and not list(tmp_path.glob("*.mcap"))
+
+
+def test_poses_alone_are_listened_to(walked):
+    with posewire.listen(str(walked), speed=10) as stream:
+        frame = next(stream)
+        assert frame.subject and frame.position.shape == (24, 3)
