@@ -2,7 +2,7 @@
 
 use crate::error::exception;
 use crate::section::named;
-use crate::take::{Take, seconds};
+use crate::take::Take;
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
 use arrow_array::{
     ArrayRef, BooleanArray, Float64Array, RecordBatch, RecordBatchIterator, StringArray, Time32MillisecondArray,
@@ -69,6 +69,10 @@ impl Table {
 /// The table of a take: `Take.to_arrow`.
 pub(crate) fn table(py: Python<'_>, take: &Take, sections: Option<&[String]>) -> PyResult<Py<Table>> {
     let sections = sections.map(named).transpose()?;
+    let lacks = |section: &&Section| take.recording.take.column(**section).is_none();
+    if let Some(section) = sections.iter().flatten().find(lacks) {
+        return Err(take.lacks(*section));
+    }
     let take = &take.recording.take;
     let rows = py.detach(|| rows(take, sections.as_deref()));
     let rows = rows.map_err(|error| exception("Error", error.to_string(), None))?;
@@ -82,8 +86,7 @@ fn rows(take: &posewire_motion::Take, sections: Option<&[Section]>) -> Result<Re
     columns.add("subject", false, Arc::new(StringArray::from_iter_values(names)));
     let samples = take.samples().iter().copied();
     columns.add("sample", false, Arc::new(UInt32Array::from_iter_values(samples)));
-    let times = take.times().iter().copied().map(seconds);
-    columns.add("time", false, Arc::new(Float64Array::from_iter_values(times)));
+    columns.add("time", false, Arc::new(Float64Array::from_iter_values(take.seconds())));
     columns.add_timecodes(take);
     if sections.is_none() {
         columns.add_events(take);

@@ -13,7 +13,6 @@ use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::sync::Arc;
-use std::time::Duration;
 
 /// A recorded take of one subject. Nothing changes it.
 ///
@@ -38,10 +37,15 @@ impl Take {
         &self.recording.take
     }
 
+    /// What is raised that says that the take lacks a section.
+    pub(crate) fn lacks(&self, section: Section) -> PyErr {
+        let help = "take.complete() computes what the poses tell";
+        missing("the take", section, self.take().sections(), help)
+    }
+
     fn array<'py>(&self, py: Python<'py>, section: Section) -> PyResult<Bound<'py, PyAny>> {
         let Some(column) = self.take().column(section) else {
-            let help = "take.complete() computes what the poses tell";
-            return Err(missing("the take", section, self.take().sections(), help));
+            return Err(self.lacks(section));
         };
         let [frames, entries, components] = column.shape();
         let whole = [frames, entries, components];
@@ -117,8 +121,7 @@ impl Take {
     /// The source's clock, seconds since its recording began: (samples,).
     #[getter]
     fn time<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let times = self.take().times().iter().copied();
-        array::owned(py, [self.take().len()], times.map(seconds).collect())
+        array::owned(py, [self.take().len()], self.take().seconds().collect())
     }
 
     /// The time of day, UTC, in seconds since midnight: (samples,), NaN where the source does not say.
@@ -318,10 +321,4 @@ impl Take {
         let (name, samples, rate) = (&take.subject.name, take.len(), take.rate);
         format!("<posewire.Take {name:?}: {samples} samples at {rate} Hz, {segments} segments>")
     }
-}
-
-/// A time in seconds: the number nearest to it, so that milliseconds are what they are divided by 1000.
-pub(crate) fn seconds(time: Duration) -> f64 {
-    // Seconds and nanoseconds by themselves would be rounded twice. Of 100 days, nanoseconds are whole numbers of f64.
-    time.as_nanos() as f64 / 1e9
 }

@@ -28,6 +28,12 @@ impl Take {
         &self.times
     }
 
+    /// Per frame: the source's clock in seconds, as the numbers nearest to it. Whole milliseconds are what they are divided by 1000.
+    pub fn seconds(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
+        // Seconds and nanoseconds by themselves would be rounded twice. Of 100 days, nanoseconds are whole numbers of f64.
+        self.times.iter().map(|time| time.as_nanos() as f64 / 1e9)
+    }
+
     /// Per frame: the time of day, UTC, where the source says.
     pub fn timecodes(&self) -> &[Option<Timecode>] {
         &self.timecodes
