@@ -7,7 +7,7 @@ pub(crate) use input::FilePath;
 use crate::error::{exception, raised};
 use crate::take::Take;
 use crate::wait::working;
-use input::{Input, Options};
+use input::{Input, Options, SourceName};
 use posewire::endpoint::{Endpoint, Walk};
 use posewire::file::{self, Progress, Recording};
 use posewire::sink::TakeSink;
@@ -38,13 +38,13 @@ pub(crate) fn read(
     subject: Option<String>,
     progress: Option<Py<PyAny>>,
     salvage: bool,
-    only: Option<String>,
+    only: Option<SourceName>,
     duration: Option<f64>,
     threads: Option<usize>,
 ) -> PyResult<Take> {
     let options = Options {
         salvage,
-        only,
+        only: only.map(|only| only.0),
         duration,
         threads,
     };
@@ -60,13 +60,13 @@ pub(crate) fn read_all(
     path: FilePath,
     progress: Option<Py<PyAny>>,
     salvage: bool,
-    only: Option<String>,
+    only: Option<SourceName>,
     duration: Option<f64>,
     threads: Option<usize>,
 ) -> PyResult<Vec<Take>> {
     let options = Options {
         salvage,
-        only,
+        only: only.map(|only| only.0),
         duration,
         threads,
     };
@@ -104,10 +104,7 @@ fn takes(py: Python<'_>, path: &Path, progress: Option<&Py<PyAny>>, options: &Op
 
 /// What kept a file from being read: what the command line says, its options in Python's words.
 fn failed(error: &Error) -> PyErr {
-    let words = |help: String| {
-        help.replace("--salvage", "salvage=True")
-            .replace("--only 0", "only=\"0\"")
-    };
+    let words = |help: String| help.replace("--salvage", "salvage=True").replace("--only 0", "only=0");
     match error {
         Error::Take { .. } => exception("ReadError", error.to_string(), error.help().map(words)),
         Error::CapturedSources { .. } => exception("UsageError", error.to_string(), error.help().map(words)),

@@ -69,7 +69,23 @@ pub(crate) fn write(
             progress.call1(py, (counted.done(), counted.total())).map(drop)
         },
     );
-    saved?.map_err(|error| failed(&error))
+    saved?.map_err(|failure| match failure {
+        Failure::Lacks(section) => take.lacks(section),
+        Failure::Engine(error) => failed(&error),
+    })
+}
+
+/// What keeps a take from being written.
+enum Failure {
+    Engine(Error),
+    /// It was asked for, the take lacks it, and its poses do not tell it.
+    Lacks(Section),
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Self::Engine(error)
+    }
 }
 
 /// The format that the name ends in or that was asked for. The two do not contradict each other.
@@ -194,7 +210,7 @@ impl Asked {
 }
 
 impl Take {
-    fn save(&self, target: &Target, asked: &Asked, progress: &Progress) -> posewire::Result<Saved> {
+    fn save(&self, target: &Target, asked: &Asked, progress: &Progress) -> Result<Saved, Failure> {
         let options = &asked.options;
         options.check(target.format)?;
         target.check(options)?;
@@ -209,6 +225,10 @@ impl Take {
         } else {
             Vec::new()
         };
+        let lacks = |section: &&Section| recording.take.column(**section).is_none();
+        if let Some(section) = options.sections.iter().flatten().find(lacks) {
+            return Err(Failure::Lacks(*section));
+        }
         if let Some(rate) = asked.rate {
             recording.to_mut().resample(rate)?;
         }

@@ -68,11 +68,13 @@ def test_a_recording_gives_the_takes_that_were_sent(recording, walk):
 
 def test_one_source_is_chosen(recording):
     assert [take.subject for take in posewire.read_all(recording, only="0")] == ["Ada", "Bob"]
-    assert posewire.read(recording, only="1").subject == "Eve"
+    assert posewire.read(recording, only=1).subject == posewire.read(recording, only="1").subject == "Eve"
+    with pytest.raises(TypeError, match="expected the number of a source or a part of its name"):
+        posewire.read(recording, only=0.5)
     with pytest.raises(posewire.UsageError) as raised:
         posewire.read(recording, only="7")
     assert 'expected one source "7", found 0 mxtp://127.0.0.1:' in raised.value.message
-    assert raised.value.help == "choose one by number or name, as in only=\"0\""
+    assert raised.value.help == "choose one by number or name, as in only=0"
 
 
 def test_packets_give_the_takes_of_the_recording(recording, capture):

@@ -60,6 +60,11 @@ def test_what_a_take_lacks_is_named_and_can_be_computed(walk, tmp_path):
     assert not hasattr(take, "velocity")
     with pytest.raises(posewire.MissingError, match="the take has no velocity: it has position, orientation"):
         take.velocity
+    for ask in take.to_arrow, lambda sections: take.write(tmp_path / "x.csv", sections=sections):
+        with pytest.raises(posewire.MissingError, match="the take has no sensor_magnetic_field: it has position"):
+            ask(["position", "sensor_magnetic_field"])
+    assert not (tmp_path / "x.csv").exists()
+    take.write(tmp_path / "x.csv", sections=["velocity"])
     whole = take.complete()
     assert whole.velocity.shape == whole.position.shape
     assert take.complete("joint_angles").sections == ["position", "orientation", "joint_angles"]

@@ -261,7 +261,7 @@ def read(
     subject: str | None = None,
     progress: _Progress | None = None,
     salvage: bool = False,
-    only: str | None = None,
+    only: int | str | None = None,
     duration: float | None = None,
     threads: int | None = None,
 ) -> Take: ...
@@ -270,7 +270,7 @@ def read_all(
     *,
     progress: _Progress | None = None,
     salvage: bool = False,
-    only: str | None = None,
+    only: int | str | None = None,
     duration: float | None = None,
     threads: int | None = None,
 ) -> list[Take]: ...

@@ -24,6 +24,22 @@ impl FromPyObject<'_, '_> for FilePath {
     }
 }
 
+/// The number of a source, or a part of its name.
+pub(crate) struct SourceName(pub(super) String);
+
+impl FromPyObject<'_, '_> for SourceName {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'_, '_, PyAny>) -> PyResult<Self> {
+        if let Ok(number) = object.extract::<u16>() {
+            return Ok(Self(number.to_string()));
+        }
+        let name = object.extract::<String>();
+        name.map(Self)
+            .map_err(|_| PyTypeError::new_err("expected the number of a source or a part of its name"))
+    }
+}
+
 /// How it is read, as keyword arguments say.
 pub(super) struct Options {
     pub(super) salvage: bool,
