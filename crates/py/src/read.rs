@@ -5,6 +5,7 @@ mod input;
 pub(crate) use input::FilePath;
 
 use crate::error::{exception, raised};
+use crate::number::Whole;
 use crate::take::Take;
 use crate::wait::working;
 use input::{Input, Options, SourceName};
@@ -40,13 +41,15 @@ pub(crate) fn read(
     salvage: bool,
     only: Option<SourceName>,
     duration: Option<f64>,
-    threads: Option<usize>,
+    threads: Option<Whole>,
 ) -> PyResult<Take> {
     let options = Options {
         salvage,
         only: only.map(|only| only.0),
         duration,
-        threads,
+        threads: threads
+            .map(|threads| threads.within("threads", 0..=MOST_THREADS))
+            .transpose()?,
     };
     let all = takes(py, &path.0, progress.as_ref(), &options)?;
     one(&path.0, all, subject.as_deref())
@@ -62,13 +65,15 @@ pub(crate) fn read_all(
     salvage: bool,
     only: Option<SourceName>,
     duration: Option<f64>,
-    threads: Option<usize>,
+    threads: Option<Whole>,
 ) -> PyResult<Vec<Take>> {
     let options = Options {
         salvage,
         only: only.map(|only| only.0),
         duration,
-        threads,
+        threads: threads
+            .map(|threads| threads.within("threads", 0..=MOST_THREADS))
+            .transpose()?,
     };
     takes(py, &path.0, progress.as_ref(), &options)
 }
@@ -239,3 +244,5 @@ fn one(path: &Path, mut all: Vec<Take>, subject: Option<&str>) -> PyResult<Take>
 
 /// A capture is played as fast as it can be read.
 const AT_ONCE: f64 = 1e6;
+/// More threads than any machine has processors for. 0 is as many as there are.
+const MOST_THREADS: usize = 4096;

@@ -3,6 +3,7 @@
 use crate::array;
 use crate::arrow::{self, Table};
 use crate::frame::Frame;
+use crate::number::Whole;
 use crate::read::FilePath;
 use crate::section::{self, missing};
 use crate::skeleton::Skeleton;
@@ -250,17 +251,16 @@ impl Take {
     }
 
     /// The sample at a place; negative places count from the end.
-    fn frame(&self, place: isize) -> PyResult<Frame> {
+    fn frame(&self, place: Whole) -> PyResult<Frame> {
         let length = self.take().len();
-        let from_start = if place < 0 {
-            length.checked_add_signed(place)
-        } else {
-            usize::try_from(place).ok()
+        let from_start = match place.within("place", isize::MIN..=isize::MAX) {
+            Ok(place @ ..0) => length.checked_add_signed(place),
+            Ok(place) => usize::try_from(place).ok(),
+            Err(_) => None,
         };
         let Some(place) = from_start.filter(|place| *place < length) else {
-            return Err(PyIndexError::new_err(format!(
-                "the take has {length} samples, found {place}"
-            )));
+            let message = format!("the take has {length} samples, found {place}");
+            return Err(PyIndexError::new_err(message));
         };
         Ok(Frame::recorded(self.take().frame(place)))
     }

@@ -1,6 +1,7 @@
 //! Takes to files.
 
 use crate::error::{exception, raised, usage};
+use crate::number::Whole;
 use crate::section::named;
 use crate::take::Take;
 use crate::wait::working;
@@ -192,13 +193,13 @@ impl Asked {
                     .map_err(|error: Error| usage(error.to_string(), "name one of these, as in format=\"csv\""));
                 self.format = Some(format?);
             }
-            "first" => self.first = Some(value.extract()?),
-            "last" => self.last = Some(value.extract()?),
+            "first" => self.first = Some(sample(name, value)?),
+            "last" => self.last = Some(sample(name, value)?),
             "rate" => self.rate = Some(value.extract()?),
             "axes" => options.axes = Some(axes_named(value.extract()?)?),
             "unit" => options.unit = Some(unit_named(value.extract()?)?),
             "sections" => options.sections = Some(named(&value.extract::<Vec<String>>()?)?),
-            "mvnx_version" => options.mvnx.version = Some(version(value.extract()?)?),
+            "mvnx_version" => options.mvnx.version = Some(version(value.extract::<Whole>()?)?),
             "csv_sheets" => options.csv.file_per_section = value.extract()?,
             "bvh_translations" => options.bvh.translations = value.extract()?,
             "bvh_t_pose" => options.bvh.first_frame_is_t_pose = value.extract()?,
@@ -274,10 +275,14 @@ fn unit_named(name: &str) -> PyResult<Unit> {
     }
 }
 
-fn version(number: u8) -> PyResult<Version> {
-    match number {
-        3 => Ok(Version::V3),
-        4 => Ok(Version::V4),
+fn version(number: Whole) -> PyResult<Version> {
+    match number.within("mvnx_version", 0..=u8::MAX) {
+        Ok(3) => Ok(Version::V3),
+        Ok(4) => Ok(Version::V4),
         _ => Err(usage(format!("there is no MVNX of version {number}"), "use 3 or 4")),
     }
+}
+
+fn sample(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u32> {
+    value.extract::<Whole>()?.within(name, 0..=u32::MAX)
 }

@@ -50,8 +50,9 @@ def test_a_sample_is_a_row_of_the_take(walk):
     assert frame.sample == 479 and frame.age is None and frame.state is None
     for section in walk.sections:
         np.testing.assert_array_equal(frame[section], walk[section][-1])
-    with pytest.raises(IndexError):
-        walk.frame(480)
+    for place in 480, -481, 10**30:
+        with pytest.raises(IndexError, match="the take has 480 samples, found "):
+            walk.frame(place)
 
 
 def test_what_a_take_lacks_is_named_and_can_be_computed(walk, tmp_path):
@@ -275,6 +276,9 @@ def test_columns_are_those_of_parquet(marked, tmp_path):
         ("x.mvn", {}, "x.mvn: the .mvn format is proprietary: expected a name that ends in ", "write .mvnx"),
         ("x.csv", {"format": "bvh"}, "x.csv ends as CSV does, and format= says BVH", "leave format out"),
         ("x.csv", {"format": "xls"}, "unknown format \"xls\", expected mvnx, ", 'format="csv"'),
+        ("x.csv", {"first": -1}, "expected a whole number from 0 to 4294967295 as first, found -1", None),
+        ("x.csv", {"last": 2**80}, "expected a whole number from 0 to 4294967295 as last, found one of more", None),
+        ("x.mvnx", {"mvnx_version": -4}, "there is no MVNX of version -4", "use 3 or 4"),
         ("x.csv", {"bvh_t_pose": True}, "bvh_t_pose= is for BVH, and CSV is written", "leave bvh_t_pose out"),
     ],
 )
@@ -282,7 +286,8 @@ def test_what_cannot_be_written_says_what_can(walk, tmp_path, monkeypatch, name,
     monkeypatch.chdir(tmp_path)
     with pytest.raises(posewire.UsageError) as raised:
         walk.write(name, **options)
-    assert raised.value.message.startswith(message) and help in raised.value.help
+    assert raised.value.message.startswith(message)
+    assert raised.value.help is None if help is None else help in raised.value.help
     assert list(tmp_path.iterdir()) == []
 
 
@@ -334,6 +339,7 @@ def test_what_is_no_file_is_told(tmp_path, monkeypatch, path, kind, message, hel
         ("x.mvnx", {"duration": 1}, "duration= is for synthetic:walk, and x.mvnx is a file of a take"),
         ("x.pcap", {"duration": 1}, "duration= is for synthetic:walk, and x.pcap is a recording or capture"),
         ("synthetic:walk", {}, "synthetic:walk never ends"),
+        ("x.mvnx", {"threads": -1}, "expected a whole number from 0 to 4096 as threads, found -1"),
         ("synthetic:walk", {"duration": -1}, "expected seconds above 0 as the duration, found -1"),
         ("synthetic:walk", {"duration": float("nan")}, "expected seconds above 0 as the duration, found NaN"),
     ],
@@ -342,7 +348,7 @@ def test_arguments_that_cannot_be_heeded_are_refused(path, options, message):
     for read in posewire.read, posewire.read_all:
         with pytest.raises(posewire.UsageError) as raised:
             read(path, **options)
-        assert raised.value.message == message and raised.value.help
+        assert raised.value.message == message
 
 
 def test_a_damaged_take_says_how_it_is_used(walk, tmp_path):

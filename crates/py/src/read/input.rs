@@ -1,6 +1,7 @@
 //! What is to be read, and the arguments that fit it.
 
 use crate::error::{exception, raised, usage};
+use crate::number::Whole;
 use posewire::Error;
 use posewire::endpoint::{Endpoint, FileFormat, Walk};
 use posewire::file::ReadOptions;
@@ -31,7 +32,7 @@ impl FromPyObject<'_, '_> for SourceName {
     type Error = PyErr;
 
     fn extract(object: Borrowed<'_, '_, PyAny>) -> PyResult<Self> {
-        if let Ok(number) = object.extract::<u16>() {
+        if let Ok(number) = object.extract::<Whole>() {
             return Ok(Self(number.to_string()));
         }
         let name = object.extract::<String>();
