@@ -142,7 +142,7 @@ fn play(
         computes: false,
         ..PlaybackOptions::default()
     };
-    let sources = Source::open_all(endpoint, &options)?;
+    let sources = Source::open_all_until(endpoint, &options, stop)?;
     let sinks: Vec<Box<dyn Sink>> = vec![Box::new(kept.clone()), Box::new(heard.clone())];
     Session::start(sources, sinks, stop.clone()).wait()?;
     if let Some(error) = heard.failure() {

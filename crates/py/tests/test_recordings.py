@@ -126,6 +126,18 @@ def test_what_was_recovered_is_whole(recording):
         np.testing.assert_array_equal(take.position, used.position)
 
 
+def test_an_interrupt_ends_reading_a_recording(recording, walked):
+    class Interrupted(Exception):
+        pass
+
+    def interrupt(done, total):
+        raise Interrupted
+
+    for path in recording, walked:
+        with pytest.raises(Interrupted):
+            posewire.read_all(path, progress=interrupt)
+
+
 def test_names_need_not_be_utf8(recording, capture):
     for path in recording, capture:
         name = os.fsencode(path.with_name("x")) + b"\xff" + os.fsencode(path.suffix)

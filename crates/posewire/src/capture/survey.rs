@@ -48,7 +48,12 @@ impl Survey {
     /// Those of [`Capture::open`], [`Error::Read`] when reading fails later, [`Error::NoDatagrams`] when there is none, and
     /// [`Error::PosesAlone`] when there are poses instead.
     pub fn of(path: &Path, options: &CaptureOptions) -> Result<Self> {
-        let survey = Self::of_any(path, options, &Stop::new())?;
+        Self::of_until(path, options, &Stop::new())
+    }
+
+    /// The same until `stop` is set.
+    pub(crate) fn of_until(path: &Path, options: &CaptureOptions, stop: &Stop) -> Result<Self> {
+        let survey = Self::of_any(path, options, stop)?;
         if survey.heard().next().is_some() {
             return Ok(survey);
         }

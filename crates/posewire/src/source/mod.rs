@@ -80,6 +80,14 @@ impl Source {
     /// # Errors
     /// Those of [`open`](Self::open), which takes one source of a capture alone.
     pub fn open_all(endpoint: &Endpoint, options: &PlaybackOptions) -> Result<Vec<Self>> {
+        Self::open_all_until(endpoint, options, &Stop::new())
+    }
+
+    /// As [`open_all`](Self::open_all). A capture is read once to be opened, which takes its time if it is long; `stop` ends that.
+    ///
+    /// # Errors
+    /// Those of [`open_all`](Self::open_all), and [`Error::Stopped`].
+    pub fn open_all_until(endpoint: &Endpoint, options: &PlaybackOptions, stop: &Stop) -> Result<Vec<Self>> {
         let Endpoint::Capture { path } = endpoint else {
             return Self::open(endpoint, options).map(|source| vec![source]);
         };
@@ -87,7 +95,7 @@ impl Source {
             endpoint: endpoint.clone(),
             kind,
         };
-        match CapturePlayback::open_all(path, options) {
+        match CapturePlayback::open_all(path, options, stop) {
             Err(Error::PosesAlone { .. }) => {
                 let poses = Playback::of_all_poses(path, options)?.into_iter();
                 Ok(poses.map(Kind::Playback).map(source).collect())
