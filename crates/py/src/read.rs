@@ -43,14 +43,7 @@ pub(crate) fn read(
     duration: Option<f64>,
     threads: Option<Whole>,
 ) -> PyResult<Take> {
-    let options = Options {
-        salvage,
-        only: only.map(|only| only.0),
-        duration,
-        threads: threads
-            .map(|threads| threads.within("threads", 0..=MOST_THREADS))
-            .transpose()?,
-    };
+    let options = Options::new(salvage, only, duration, threads)?;
     let all = takes(py, &path.0, progress.as_ref(), &options)?;
     one(&path.0, all, subject.as_deref())
 }
@@ -67,14 +60,7 @@ pub(crate) fn read_all(
     duration: Option<f64>,
     threads: Option<Whole>,
 ) -> PyResult<Vec<Take>> {
-    let options = Options {
-        salvage,
-        only: only.map(|only| only.0),
-        duration,
-        threads: threads
-            .map(|threads| threads.within("threads", 0..=MOST_THREADS))
-            .transpose()?,
-    };
+    let options = Options::new(salvage, only, duration, threads)?;
     takes(py, &path.0, progress.as_ref(), &options)
 }
 
@@ -244,5 +230,3 @@ fn one(path: &Path, mut all: Vec<Take>, subject: Option<&str>) -> PyResult<Take>
 
 /// A capture is played as fast as it can be read.
 const AT_ONCE: f64 = 1e6;
-/// More threads than any machine has processors for. 0 is as many as there are.
-const MOST_THREADS: usize = 4096;

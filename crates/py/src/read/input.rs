@@ -26,7 +26,7 @@ impl FromPyObject<'_, '_> for FilePath {
 }
 
 /// The number of a source, or a part of its name.
-pub(crate) struct SourceName(pub(super) String);
+pub(crate) struct SourceName(String);
 
 impl FromPyObject<'_, '_> for SourceName {
     type Error = PyErr;
@@ -45,11 +45,27 @@ impl FromPyObject<'_, '_> for SourceName {
 pub(super) struct Options {
     pub(super) salvage: bool,
     pub(super) only: Option<String>,
-    pub(super) duration: Option<f64>,
-    pub(super) threads: Option<usize>,
+    duration: Option<f64>,
+    threads: Option<usize>,
 }
 
 impl Options {
+    /// As Python gave them.
+    pub(super) fn new(
+        salvage: bool,
+        only: Option<SourceName>,
+        duration: Option<f64>,
+        threads: Option<Whole>,
+    ) -> PyResult<Self> {
+        let threads = threads.map(|threads| threads.within("threads", 0..=MOST_THREADS));
+        Ok(Self {
+            salvage,
+            only: only.map(|only| only.0),
+            duration,
+            threads: threads.transpose()?,
+        })
+    }
+
     /// How MVNX is read.
     pub(super) fn reading(&self) -> ReadOptions {
         ReadOptions {
@@ -170,3 +186,6 @@ fn walk_duration(text: &str, duration: Option<f64>) -> PyResult<Duration> {
         )
     })
 }
+
+/// More threads than any machine has processors for. 0 is as many as there are.
+const MOST_THREADS: usize = 4096;
