@@ -50,6 +50,7 @@ def test_a_sample_is_a_row_of_the_take(walk):
     assert frame.sample == 479 and frame.age is None and frame.state is None
     for section in walk.sections:
         np.testing.assert_array_equal(frame[section], walk[section][-1])
+    assert [walk.frame(place).time for place in range(480)] == walk.time.tolist()
     for place in 480, -481, 10**30:
         with pytest.raises(IndexError, match="the take has 480 samples, found "):
             walk.frame(place)

@@ -1,6 +1,7 @@
 //! What a take tells: columns, and frames made of them.
 
 use super::{CONTACTS, Take, bit, lists};
+use crate::time::seconds;
 use crate::{Column, Frame, Marker, Section, Timecode};
 use std::iter::FusedIterator;
 use std::ops::Range;
@@ -30,8 +31,7 @@ impl Take {
 
     /// Per frame: the source's clock in seconds, as the numbers nearest to it. Whole milliseconds are what they are divided by 1000.
     pub fn seconds(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
-        // Seconds and nanoseconds by themselves would be rounded twice. Of 100 days, nanoseconds are whole numbers of f64.
-        self.times.iter().map(|time| time.as_nanos() as f64 / 1e9)
+        self.times.iter().copied().map(seconds)
     }
 
     /// Per frame: the time of day, UTC, where the source says.
