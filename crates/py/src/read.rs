@@ -82,7 +82,7 @@ fn takes(py: Python<'_>, path: &Path, progress: Option<&Py<PyAny>>, options: &Op
         };
         progress.call1(py, (done, total)).map(drop)
     });
-    let recordings = read?.map_err(|error| failed(&error))?;
+    let recordings = read?.map_err(|error| raised(&error))?;
     if let Some(problem) = heard.damage()
         && (recordings.is_empty() || !options.salvage)
     {
@@ -91,16 +91,6 @@ fn takes(py: Python<'_>, path: &Path, progress: Option<&Py<PyAny>>, options: &Op
     let received = matches!(input, Input::Capture(_));
     let take = |recording| Take::new(recording, received);
     Ok(recordings.into_iter().map(take).collect())
-}
-
-/// What kept a file from being read: what the command line says, its options in Python's words.
-fn failed(error: &Error) -> PyErr {
-    let words = |help: String| help.replace("--salvage", "salvage=True").replace("--only 0", "only=0");
-    match error {
-        Error::Take { .. } => exception("ReadError", error.to_string(), error.help().map(words)),
-        Error::CapturedSources { .. } => exception("UsageError", error.to_string(), error.help().map(words)),
-        error => raised(error),
-    }
 }
 
 /// A recording or capture that ends before its end, as the command line says it of one that it uses up to there.

@@ -1,6 +1,6 @@
 //! Takes to files.
 
-use crate::error::{exception, raised, usage};
+use crate::error::{raised, usage};
 use crate::number::Whole;
 use crate::section::named;
 use crate::take::Take;
@@ -153,19 +153,15 @@ fn refuse_options_of_others(format: FileFormat, keywords: Option<&Bound<'_, PyDi
     Ok(())
 }
 
-/// What kept a take from being written: what the command line says, and what to do about it in Python.
+/// What kept a take from being written. Who has a package has no Cargo.
 fn failed(error: &Error) -> PyErr {
-    let help = match error {
-        Error::Exists { .. } => "choose another name, or replace it with overwrite=True",
-        Error::Feature { feature: "parquet", .. } => "pip install ./crates/py -C build-args=\"--features parquet\"",
-        error => return raised(error),
-    };
-    let class = if matches!(error, Error::Exists { .. }) {
-        "WriteError"
-    } else {
-        "UsageError"
-    };
-    exception(class, error.to_string(), Some(help.to_owned()))
+    match error {
+        Error::Feature { feature: "parquet", .. } => usage(
+            error.to_string(),
+            "pip install ./crates/py -C build-args=\"--features parquet\"",
+        ),
+        error => raised(error),
+    }
 }
 
 /// How a take is to be written, and what is done to it before.

@@ -74,7 +74,7 @@ def test_one_source_is_chosen(recording):
     with pytest.raises(posewire.UsageError) as raised:
         posewire.read(recording, only="7")
     assert 'expected one source "7", found 0 mxtp://127.0.0.1:' in raised.value.message
-    assert raised.value.help == "choose one by number or name, as in only=0"
+    assert raised.value.help == 'choose one by number or name, as in only="0"'
 
 
 def test_packets_give_the_takes_of_the_recording(recording, capture):
