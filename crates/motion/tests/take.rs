@@ -39,7 +39,10 @@ fn seconds_are_the_milliseconds_divided_by_1000() {
         frame.time = Duration::from_millis(millisecond);
         take.push(&frame).unwrap();
     }
-    assert!(take.seconds().eq(milliseconds.map(|millisecond| millisecond as f64 / 1000.0)));
+    assert!(
+        take.seconds()
+            .eq(milliseconds.map(|millisecond| millisecond as f64 / 1000.0))
+    );
 }
 
 #[test]
