@@ -1,5 +1,6 @@
 //! One sample of one subject.
 
+use crate::time::seconds;
 use crate::{Error, Pose, Stamp, Subject, Timecode};
 use glam::{DQuat, DVec3};
 use std::sync::Arc;
@@ -158,6 +159,11 @@ impl Frame {
         let position = self.position.get(segment).copied().flatten()?;
         let orientation = self.orientation.get(segment).copied().flatten()?;
         Some(Pose::new(position, orientation))
+    }
+
+    /// The source's clock in seconds, as [`Take::seconds`](crate::Take::seconds) has it.
+    pub fn seconds(&self) -> f64 {
+        seconds(self.time)
     }
 
     /// Checks that every section that is there has an entry for each segment, joint or sensor.

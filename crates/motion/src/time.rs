@@ -124,6 +124,12 @@ fn digits(text: &str, count: usize) -> Option<u64> {
     exact.then(|| text.parse().ok()).flatten()
 }
 
+/// The number of seconds that is nearest to a time, so that whole milliseconds are what they are divided by 1000.
+pub(crate) fn seconds(time: Duration) -> f64 {
+    // Seconds and nanoseconds by themselves would be rounded twice. Of 100 days, nanoseconds are whole numbers of f64.
+    time.as_nanos() as f64 / 1e9
+}
+
 const MILLISECONDS_PER_DAY: u64 = 86_400_000;
 
 #[cfg(test)]

@@ -30,6 +30,22 @@ fn what_some_frames_lack_is_nan_there_and_what_none_has_is_absent() {
 }
 
 #[test]
+fn seconds_are_the_milliseconds_divided_by_1000() {
+    let subject = subject();
+    let mut take = Take::new(subject.clone(), 240.0);
+    let milliseconds = (0..100_000_u64).map(|sample| sample * 1000 / 240 + sample % 3);
+    for millisecond in milliseconds.clone() {
+        let mut frame = Frame::new(subject.clone());
+        frame.time = Duration::from_millis(millisecond);
+        take.push(&frame).unwrap();
+    }
+    assert!(
+        take.seconds()
+            .eq(milliseconds.map(|millisecond| millisecond as f64 / 1000.0))
+    );
+}
+
+#[test]
 fn nothing_tracked_is_not_nothing_sent() {
     let subject = subject();
     let mut take = Take::new(subject.clone(), 60.0);

@@ -157,6 +157,12 @@ pub enum Error {
         /// What there is instead.
         found: String,
     },
+    /// A recording of samples without a datagram, as that of the walker, where datagrams are needed.
+    #[error("{}: expected datagrams, found poses alone", path.display())]
+    PosesAlone {
+        /// The file.
+        path: PathBuf,
+    },
     /// A capture in which not one source is meant, but none or several.
     #[error("{path}: expected one source{}, found {}", wanted.as_ref().map_or(String::new(), |wanted| format!(" {wanted:?}")), found.join(", "))]
     CapturedSources {

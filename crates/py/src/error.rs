@@ -5,7 +5,19 @@ use pyo3::prelude::*;
 
 /// The exception for a failure of the engine: what the command line says after `error:`, and its help.
 pub(crate) fn raised(error: &Error) -> PyErr {
-    exception(class_of(error), error.to_string(), error.help())
+    exception(class_of(error), error.to_string(), error.help().map(in_python))
+}
+
+/// A help whose options are spelled as Python's arguments.
+fn in_python(help: String) -> String {
+    let options = [
+        ("--salvage", "salvage=True"),
+        ("--overwrite", "overwrite=True"),
+        ("--only 0", "only=\"0\""),
+    ];
+    options
+        .into_iter()
+        .fold(help, |help, (option, argument)| help.replace(option, argument))
 }
 
 /// For what the command line calls a wrong argument.

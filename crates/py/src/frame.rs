@@ -112,7 +112,7 @@ impl Frame {
     /// The source's clock, seconds since its recording began.
     #[getter]
     fn time(&self) -> f64 {
-        self.frame.time.as_secs_f64()
+        self.frame.seconds()
     }
 
     /// The time of day, UTC, in seconds since midnight; None where the source does not say.

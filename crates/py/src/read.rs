@@ -1,43 +1,51 @@
 //! Takes from files.
 
-use crate::error::{exception, raised, usage};
+mod input;
+
+pub(crate) use input::FilePath;
+
+use crate::error::{exception, raised};
+use crate::number::Whole;
 use crate::take::Take;
 use crate::wait::working;
-use posewire::endpoint::{Endpoint, FileFormat, Walk};
-use posewire::file::{self, Progress, ReadOptions, Recording};
+use input::{Input, Options, SourceName};
+use posewire::endpoint::{Endpoint, Walk};
+use posewire::file::{self, Progress, Recording};
 use posewire::sink::TakeSink;
 use posewire::source::{PlaybackOptions, synthetic};
 use posewire::stop::Stop;
-use posewire::{Error, Session, Source};
+use posewire::{Error, Item, Notice, Session, Sink, Source, SourceId, Wants};
 use pyo3::prelude::*;
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 /// Reads a take: an MVNX file (.mvnx, .mvnx.gz), a recording or a capture (.mcap, .pcap, .pcapng), or "synthetic:walk", the
 /// built-in walker, with a duration.
 ///
 /// Where there are several subjects, `subject` names one; `read_all` gives them all. `progress` is called with how much is done
-/// and how much there is: bytes of MVNX, samples of others, whose total is 0, unknown. `salvage` uses a damaged file up to the
-/// damage. `only` is the source of a capture, by its number or a part of its name.
+/// and how much there is: bytes of MVNX, samples of others, whose total is 0, unknown. `salvage` uses a file that is damaged or
+/// was cut off up to the damage, of which `Take.damage` tells. `only` is the source of a recording or capture, by its number or a
+/// part of its name; `threads` is how many read MVNX.
 ///
-/// Raises ReadError for a file that cannot be read, UsageError for one that is none, and MissingError when there is not
-/// exactly one take.
+/// Raises ReadError for a file that cannot be read or is damaged, UsageError for one that is none and for arguments that nothing
+/// would come of, and MissingError when there is not exactly one take.
 #[pyfunction]
 #[pyo3(signature = (path, *, subject = None, progress = None, salvage = false, only = None, duration = None, threads = None))]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub(crate) fn read(
     py: Python<'_>,
-    path: PathBuf,
+    path: FilePath,
     subject: Option<String>,
     progress: Option<Py<PyAny>>,
     salvage: bool,
-    only: Option<String>,
+    only: Option<SourceName>,
     duration: Option<f64>,
-    threads: Option<usize>,
+    threads: Option<Whole>,
 ) -> PyResult<Take> {
-    let all = read_all(py, path.clone(), progress, salvage, only, duration, threads)?;
-    one(&path, all, subject.as_deref())
+    let options = Options::new(salvage, only, duration, threads)?;
+    let all = takes(py, &path.0, progress.as_ref(), &options)?;
+    one(&path.0, all, subject.as_deref())
 }
 
 /// Reads the takes of all subjects of a file, as `read` does that of one.
@@ -45,88 +53,130 @@ pub(crate) fn read(
 #[pyo3(signature = (path, *, progress = None, salvage = false, only = None, duration = None, threads = None))]
 pub(crate) fn read_all(
     py: Python<'_>,
-    path: PathBuf,
+    path: FilePath,
     progress: Option<Py<PyAny>>,
     salvage: bool,
-    only: Option<String>,
+    only: Option<SourceName>,
     duration: Option<f64>,
-    threads: Option<usize>,
+    threads: Option<Whole>,
 ) -> PyResult<Vec<Take>> {
+    let options = Options::new(salvage, only, duration, threads)?;
+    takes(py, &path.0, progress.as_ref(), &options)
+}
+
+fn takes(py: Python<'_>, path: &Path, progress: Option<&Py<PyAny>>, options: &Options) -> PyResult<Vec<Take>> {
     let stop = Stop::new();
     let counted = Progress::new(stop.clone());
-    let takes = TakeSink::default();
-    let input = Input::of(&path, duration)?;
+    let (kept, heard) = (TakeSink::default(), Heard::default());
+    let input = Input::of(path, options)?;
     let work = || match &input {
-        Input::Mvnx => {
-            let options = ReadOptions { salvage, threads };
-            file::read(&path, options, &counted).map(|recording| vec![recording])
-        }
-        Input::Capture(endpoint) => play(endpoint, only, &takes, &stop),
+        Input::Mvnx => file::read(path, options.reading(), &counted).map(|recording| vec![recording]),
+        Input::Capture(endpoint) => play(endpoint, options.only.clone(), &kept, &heard, &stop),
         Input::Walk(walk, duration) => Ok(walk_for(walk, *duration, &stop)),
     };
     let read = working(py, &stop, work, || {
-        let Some(progress) = &progress else { return Ok(()) };
+        let Some(progress) = progress else { return Ok(()) };
         let (done, total) = match input {
             Input::Mvnx => (counted.done(), counted.total()),
-            _ => (takes.frames() as u64, 0),
+            _ => (kept.frames() as u64, 0),
         };
         progress.call1(py, (done, total)).map(drop)
     });
     let recordings = read?.map_err(|error| raised(&error))?;
+    if let Some(problem) = heard.damage()
+        && (recordings.is_empty() || !options.salvage)
+    {
+        return Err(damaged(path, problem, recordings.is_empty()));
+    }
     let received = matches!(input, Input::Capture(_));
-    Ok(recordings
-        .into_iter()
-        .map(|recording| Take::new(recording, received))
-        .collect())
+    let take = |recording| Take::new(recording, received);
+    Ok(recordings.into_iter().map(take).collect())
 }
 
-/// What a path is.
-enum Input {
-    Mvnx,
-    Capture(Endpoint),
-    Walk(Walk, Duration),
-}
-
-impl Input {
-    /// As the command line has it: what a file holds counts more than its name, and one that is not there is said to be missing.
-    fn of(path: &Path, duration: Option<f64>) -> PyResult<Self> {
-        let text = path.to_string_lossy();
-        match text.parse() {
-            Ok(Endpoint::Synthetic(walk)) => walk_duration(&text, duration).map(|duration| Self::Walk(walk, duration)),
-            Ok(Endpoint::File { path, format }) => Self::of_file(&path, format),
-            Ok(endpoint @ Endpoint::Capture { .. }) => Ok(Self::Capture(endpoint)),
-            Err(Error::UnknownFormat { .. }) => Ok(Self::Mvnx),
-            Ok(endpoint) => Err(usage(
-                format!("expected a file, found {endpoint}"),
-                format!("posewire.listen(\"{endpoint}\") gives what comes from there"),
-            )),
-            Err(error) => Err(raised(&error)),
-        }
-    }
-
-    fn of_file(path: &Path, format: FileFormat) -> PyResult<Self> {
-        if path.exists() {
-            format.check_readable(path).map_err(|error| raised(&error))?;
-        }
-        Ok(Self::Mvnx)
-    }
-}
-
-fn walk_duration(text: &str, duration: Option<f64>) -> PyResult<Duration> {
-    let duration = duration.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
-    duration.ok_or_else(|| usage(format!("{text} never ends"), "say for how long, as in duration=10"))
+/// A recording or capture that ends before its end, as the command line says it of one that it uses up to there.
+fn damaged(path: &Path, problem: String, lacks_all: bool) -> PyErr {
+    let message = format!("{}: {}", path.display(), Notice::Damaged { problem });
+    let help = if lacks_all {
+        "there is no whole sample before the damage"
+    } else {
+        "salvage=True uses what comes before the damage; of a recording, posewire inspect --recover makes a whole file of that"
+    };
+    exception("ReadError", message, Some(help.to_owned()))
 }
 
 /// All that a capture holds, as fast as it can be read.
-fn play(endpoint: &Endpoint, only: Option<String>, takes: &TakeSink, stop: &Stop) -> posewire::Result<Vec<Recording>> {
+fn play(
+    endpoint: &Endpoint,
+    only: Option<String>,
+    kept: &TakeSink,
+    heard: &Heard,
+    stop: &Stop,
+) -> posewire::Result<Vec<Recording>> {
     let options = PlaybackOptions {
         speed: AT_ONCE,
         only,
+        computes: false,
         ..PlaybackOptions::default()
     };
-    let sources = Source::open_all(endpoint, &options)?;
-    Session::start(sources, vec![Box::new(takes.clone())], stop.clone()).wait()?;
-    Ok(takes.take().into_iter().map(Recording::from).collect())
+    let sources = Source::open_all_until(endpoint, &options, stop)?;
+    let sinks: Vec<Box<dyn Sink>> = vec![Box::new(kept.clone()), Box::new(heard.clone())];
+    Session::start(sources, sinks, stop.clone()).wait()?;
+    if let Some(error) = heard.failure() {
+        return Err(error);
+    }
+    let recording = |take| {
+        let mut recording = Recording::from(take);
+        recording.damage = heard.damage();
+        recording
+    };
+    Ok(kept.take().into_iter().map(recording).collect())
+}
+
+/// What a capture's sources say of it. Clones share it.
+#[derive(Clone, Default)]
+struct Heard(Arc<Mutex<Vec<Notice>>>);
+
+impl Heard {
+    /// What ended the file before its end.
+    fn damage(&self) -> Option<String> {
+        self.find(|notice| match notice {
+            Notice::Damaged { problem } => Some(problem.clone()),
+            _ => None,
+        })
+    }
+
+    /// What kept one of several sources from being read to its end.
+    fn failure(&self) -> Option<Error> {
+        self.find(|notice| match notice {
+            Notice::Failed { error } => Some(error.clone()),
+            _ => None,
+        })
+    }
+
+    fn find<T>(&self, wanted: impl Fn(&Notice) -> Option<T>) -> Option<T> {
+        self.0
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .iter()
+            .find_map(wanted)
+    }
+}
+
+impl Sink for Heard {
+    fn wants(&self) -> Wants {
+        Wants {
+            frames: false,
+            datagrams: false,
+        }
+    }
+
+    fn accept(&mut self, _: SourceId, item: &Item) -> posewire::Result<()> {
+        if let Item::Notice(notice @ (Notice::Damaged { .. } | Notice::Failed { .. })) = item {
+            let mut notices = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            notices.push(notice.clone());
+        }
+        Ok(())
+    }
 }
 
 fn walk_for(walk: &Walk, duration: Duration, stop: &Stop) -> Vec<Recording> {

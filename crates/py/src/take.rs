@@ -3,6 +3,8 @@
 use crate::array;
 use crate::arrow::{self, Table};
 use crate::frame::Frame;
+use crate::number::Whole;
+use crate::read::FilePath;
 use crate::section::{self, missing};
 use crate::skeleton::Skeleton;
 use crate::write::{self, Saved};
@@ -11,7 +13,6 @@ use posewire_motion::Section;
 use pyo3::exceptions::{PyIndexError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A recorded take of one subject. Nothing changes it.
@@ -37,10 +38,15 @@ impl Take {
         &self.recording.take
     }
 
+    /// What is raised that says that the take lacks a section.
+    pub(crate) fn lacks(&self, section: Section) -> PyErr {
+        let help = "take.complete() computes what the poses tell";
+        missing("the take", section, self.take().sections(), help)
+    }
+
     fn array<'py>(&self, py: Python<'py>, section: Section) -> PyResult<Bound<'py, PyAny>> {
         let Some(column) = self.take().column(section) else {
-            let help = "take.complete() computes what the poses tell";
-            return Err(missing("the take", section, self.take().sections(), help));
+            return Err(self.lacks(section));
         };
         let [frames, entries, components] = column.shape();
         let whole = [frames, entries, components];
@@ -95,7 +101,7 @@ impl Take {
         self.take().sections().map(Section::name).collect()
     }
 
-    /// What was wrong with the file, where it was read with salvage and something was; else None.
+    /// What ended the file before its end, where it was read with salvage and something did; None of a whole file.
     #[getter]
     fn damage(&self) -> Option<&str> {
         self.recording.damage.as_deref()
@@ -116,12 +122,7 @@ impl Take {
     /// The source's clock, seconds since its recording began: (samples,).
     #[getter]
     fn time<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let times = self.take().times().iter();
-        array::owned(
-            py,
-            [self.take().len()],
-            times.map(std::time::Duration::as_secs_f64).collect(),
-        )
+        array::owned(py, [self.take().len()], self.take().seconds().collect())
     }
 
     /// The time of day, UTC, in seconds since midnight: (samples,), NaN where the source does not say.
@@ -250,17 +251,16 @@ impl Take {
     }
 
     /// The sample at a place; negative places count from the end.
-    fn frame(&self, place: isize) -> PyResult<Frame> {
+    fn frame(&self, place: Whole) -> PyResult<Frame> {
         let length = self.take().len();
-        let from_start = if place < 0 {
-            length.checked_add_signed(place)
-        } else {
-            usize::try_from(place).ok()
+        let from_start = match place.within("place", isize::MIN..=isize::MAX) {
+            Ok(place @ ..0) => length.checked_add_signed(place),
+            Ok(place) => usize::try_from(place).ok(),
+            Err(_) => None,
         };
         let Some(place) = from_start.filter(|place| *place < length) else {
-            return Err(PyIndexError::new_err(format!(
-                "the take has {length} samples, found {place}"
-            )));
+            let message = format!("the take has {length} samples, found {place}");
+            return Err(PyIndexError::new_err(message));
         };
         Ok(Frame::recorded(self.take().frame(place)))
     }
@@ -279,10 +279,13 @@ impl Take {
 
     /// The take as a table for polars, pyarrow, DuckDB and others: polars.DataFrame(take.to_arrow()).
     ///
-    /// A row for each sample: subject, sample, time, and a column for each number, as position_Pelvis_x; units are those of the
-    /// arrays, null is not tracked. `sections` are names of sections; all of them if left out.
+    /// A row for each sample: subject, sample, time, the timecode as a time of day (UTC), and a column for each number, as
+    /// position_Pelvis_x or joint_angles_jLeftKnee_z, the flexion; units are those of the arrays, so angles are radians; null is not
+    /// tracked.
+    /// `sections` are names of sections; all of them if left out, and then `event`, with the names of those set at a sample,
+    /// and contact_LeftFoot_Heel and the like too. What no sample has is no column.
     #[pyo3(signature = (sections = None))]
-    fn to_arrow(&self, py: Python<'_>, sections: Option<Vec<String>>) -> PyResult<Table> {
+    fn to_arrow(&self, py: Python<'_>, sections: Option<Vec<String>>) -> PyResult<Py<Table>> {
         arrow::table(py, self, sections.as_deref())
     }
 
@@ -301,12 +304,12 @@ impl Take {
     fn write(
         &self,
         py: Python<'_>,
-        path: PathBuf,
+        path: FilePath,
         overwrite: bool,
         progress: Option<Py<PyAny>>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Saved> {
-        write::write(py, self, path, overwrite, progress.as_ref(), options)
+        write::write(py, self, path.0, overwrite, progress.as_ref(), options)
     }
 
     fn __len__(&self) -> usize {

@@ -1,10 +1,12 @@
 //! Takes to files.
 
 use crate::error::{raised, usage};
+use crate::number::Whole;
 use crate::section::named;
 use crate::take::Take;
 use crate::wait::working;
-use posewire::endpoint::FileFormat;
+use posewire::Error;
+use posewire::endpoint::{Endpoint, FileFormat};
 use posewire::file::{Axes, Progress, Target, WriteOptions, save};
 use posewire::stop::Stop;
 use posewire_motion::{Section, Unit};
@@ -13,7 +15,7 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::borrow::Cow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// What `Take.write` has written.
 #[pyclass(frozen, get_all, module = "posewire")]
@@ -50,13 +52,11 @@ pub(crate) fn write(
     for (name, value) in keywords.into_iter().flatten() {
         asked.take(&name.extract::<String>()?, &value)?;
     }
-    let format = match asked.format {
-        Some(format) => Ok(format),
-        None => FileFormat::of(&path.to_string_lossy()),
-    };
+    let format = format_of(&path, asked.format)?;
+    refuse_options_of_others(format, keywords)?;
     let target = Target {
         path,
-        format: format.map_err(|error| raised(&error))?,
+        format,
         overwrite,
     };
     let stop = Stop::new();
@@ -70,7 +70,98 @@ pub(crate) fn write(
             progress.call1(py, (counted.done(), counted.total())).map(drop)
         },
     );
-    saved?.map_err(|error| raised(&error))
+    saved?.map_err(|failure| match failure {
+        Failure::Lacks(section) => take.lacks(section),
+        Failure::Engine(error) => failed(&error),
+    })
+}
+
+/// What keeps a take from being written.
+enum Failure {
+    Engine(Error),
+    /// It was asked for, the take lacks it, and its poses do not tell it.
+    Lacks(Section),
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Self::Engine(error)
+    }
+}
+
+/// The format that the name ends in or that was asked for. The two do not contradict each other.
+fn format_of(path: &Path, asked: Option<FileFormat>) -> PyResult<FileFormat> {
+    let text = path.to_string_lossy();
+    let named = FileFormat::of(&text);
+    match (asked, named) {
+        (Some(asked), Ok(named)) if asked != named => Err(usage(
+            format!("{text} ends as {named} does, and format= says {asked}"),
+            "leave format out, or choose another name",
+        )),
+        (Some(format), _) | (None, Ok(format)) => Ok(format),
+        (None, Err(error)) => Err(unwritable(&text, &error)),
+    }
+}
+
+/// What cannot be written under a name, or told by it.
+fn unwritable(text: &str, error: &Error) -> PyErr {
+    let endings = FileFormat::ALL.iter().map(|format| format!(".{}", format.ending()));
+    let endings = endings.collect::<Vec<_>>().join(" ");
+    let expected = format!("expected a name that ends in {endings}");
+    if matches!(text.parse(), Ok(Endpoint::Capture { .. })) {
+        let message = format!("{text} is made of a recording or capture, found a take: {expected}");
+        return usage(
+            message,
+            "send it with posewire.streamer, and record that with posewire.Recorder",
+        );
+    }
+    match error {
+        Error::Proprietary { .. } => usage(
+            format!("{text}: the .mvn format is proprietary: {expected}"),
+            "write .mvnx, MVN's open format",
+        ),
+        _ => usage(
+            format!("{text}: {expected}"),
+            "name a file with one of these endings, or say what to write, as in format=\"csv\"",
+        ),
+    }
+}
+
+/// Refuses options of one format where another is written.
+fn refuse_options_of_others(format: FileFormat, keywords: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
+    use FileFormat::{Bvh, Csv, Mvnx, MvnxGz, Parquet};
+    let options: [(_, &[FileFormat]); 5] = [
+        ("mvnx_version", &[Mvnx, MvnxGz]),
+        ("csv_sheets", &[Csv]),
+        ("bvh_translations", &[Bvh]),
+        ("bvh_t_pose", &[Bvh]),
+        ("micro_units", &[Parquet]),
+    ];
+    for (name, value) in keywords.into_iter().flatten() {
+        let name = name.extract::<String>()?;
+        let of = options.iter().find(|(option, _)| *option == name);
+        if let Some((_, formats)) = of
+            && !formats.contains(&format)
+            && value.is_truthy()?
+        {
+            return Err(usage(
+                format!("{name}= is for {}, and {format} is written", formats[0]),
+                format!("leave {name} out, or write {}", formats[0]),
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// What kept a take from being written. Who has a package has no Cargo.
+fn failed(error: &Error) -> PyErr {
+    match error {
+        Error::Feature { feature: "parquet", .. } => usage(
+            error.to_string(),
+            "pip install ./crates/py -C build-args=\"--features parquet\"",
+        ),
+        error => raised(error),
+    }
 }
 
 /// How a take is to be written, and what is done to it before.
@@ -92,16 +183,19 @@ impl Asked {
         let options = &mut self.options;
         match name {
             "format" => {
-                let format = value.extract::<String>()?.parse();
-                self.format = Some(format.map_err(|error| raised(&error))?);
+                let text = value.extract::<String>()?;
+                let format = text
+                    .parse()
+                    .map_err(|error: Error| usage(error.to_string(), "name one of these, as in format=\"csv\""));
+                self.format = Some(format?);
             }
-            "first" => self.first = Some(value.extract()?),
-            "last" => self.last = Some(value.extract()?),
+            "first" => self.first = Some(sample(name, value)?),
+            "last" => self.last = Some(sample(name, value)?),
             "rate" => self.rate = Some(value.extract()?),
             "axes" => options.axes = Some(axes_named(value.extract()?)?),
             "unit" => options.unit = Some(unit_named(value.extract()?)?),
             "sections" => options.sections = Some(named(&value.extract::<Vec<String>>()?)?),
-            "mvnx_version" => options.mvnx.version = Some(version(value.extract()?)?),
+            "mvnx_version" => options.mvnx.version = Some(version(value.extract::<Whole>()?)?),
             "csv_sheets" => options.csv.file_per_section = value.extract()?,
             "bvh_translations" => options.bvh.translations = value.extract()?,
             "bvh_t_pose" => options.bvh.first_frame_is_t_pose = value.extract()?,
@@ -113,7 +207,7 @@ impl Asked {
 }
 
 impl Take {
-    fn save(&self, target: &Target, asked: &Asked, progress: &Progress) -> posewire::Result<Saved> {
+    fn save(&self, target: &Target, asked: &Asked, progress: &Progress) -> Result<Saved, Failure> {
         let options = &asked.options;
         options.check(target.format)?;
         target.check(options)?;
@@ -128,6 +222,10 @@ impl Take {
         } else {
             Vec::new()
         };
+        let lacks = |section: &&Section| recording.take.column(**section).is_none();
+        if let Some(section) = options.sections.iter().flatten().find(lacks) {
+            return Err(Failure::Lacks(*section));
+        }
         if let Some(rate) = asked.rate {
             recording.to_mut().resample(rate)?;
         }
@@ -173,10 +271,14 @@ fn unit_named(name: &str) -> PyResult<Unit> {
     }
 }
 
-fn version(number: u8) -> PyResult<Version> {
-    match number {
-        3 => Ok(Version::V3),
-        4 => Ok(Version::V4),
+fn version(number: Whole) -> PyResult<Version> {
+    match number.within("mvnx_version", 0..=u8::MAX) {
+        Ok(3) => Ok(Version::V3),
+        Ok(4) => Ok(Version::V4),
         _ => Err(usage(format!("there is no MVNX of version {number}"), "use 3 or 4")),
     }
+}
+
+fn sample(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u32> {
+    value.extract::<Whole>()?.within(name, 0..=u32::MAX)
 }

@@ -2,6 +2,7 @@
 
 use crate::program::{objects, posewire};
 use crate::record::{Recorder, send_until};
+use crate::refusals::assert_refused;
 use posewire::recording::Survey;
 use std::fs;
 use std::net::UdpSocket;
@@ -215,4 +216,40 @@ fn the_folder_for_takes_is_made() {
     let ended = posewire(folder.path(), &arguments, b"");
     assert_eq!(ended.code, Some(0), "{}", ended.err);
     assert!(folder.path().join("new/takes").is_dir());
+}
+
+#[test]
+fn a_recording_of_poses_alone_is_converted_and_streamed() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| posewire(folder.path(), arguments, b"");
+    let record = ["record", "synthetic:walk", "-o", "walk.mcap", "--duration", "0.3"];
+    assert_eq!(run(&record).code, Some(0));
+
+    let converted = run(&["convert", "walk.mcap", "walk.mvnx"]);
+    assert_eq!(converted.code, Some(0), "{}", converted.err);
+    assert!(
+        converted.err.contains("playing the poses of walk.mcap"),
+        "{}",
+        converted.err
+    );
+    let target = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let url = format!("mxtp://{}", target.local_addr().unwrap());
+    let streamed = run(&["stream", "walk.mcap", "--to", &url]);
+    assert_eq!(streamed.code, Some(0), "{}", streamed.err);
+    let mut datagram = [0; 2048];
+    assert!(target.recv(&mut datagram).unwrap() > 24 && datagram.starts_with(b"MXTP"));
+
+    let (error, help) = (
+        "walk.mcap: expected datagrams, found poses alone",
+        "posewire stream walk.mcap",
+    );
+    for arguments in [
+        &["replay", "walk.mcap", "--to", &url][..],
+        &["monitor", "walk.mcap"],
+        &["doctor", "walk.mcap"],
+        &["convert", "walk.mcap", "walk.pcapng"],
+        &["convert", "walk.mcap", "other.mcap"],
+    ] {
+        assert_refused(folder.path(), arguments, 1, error, help);
+    }
 }

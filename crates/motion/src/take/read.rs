@@ -1,6 +1,7 @@
 //! What a take tells: columns, and frames made of them.
 
 use super::{CONTACTS, Take, bit, lists};
+use crate::time::seconds;
 use crate::{Column, Frame, Marker, Section, Timecode};
 use std::iter::FusedIterator;
 use std::ops::Range;
@@ -26,6 +27,11 @@ impl Take {
     /// Per frame: the source's clock.
     pub fn times(&self) -> &[Duration] {
         &self.times
+    }
+
+    /// Per frame: the source's clock in seconds, as the numbers nearest to it. Whole milliseconds are what they are divided by 1000.
+    pub fn seconds(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
+        self.times.iter().copied().map(seconds)
     }
 
     /// Per frame: the time of day, UTC, where the source says.

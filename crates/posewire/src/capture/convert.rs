@@ -1,6 +1,7 @@
 //! Captures from one kind of file to another.
 
-use super::{Capture, CaptureOptions, Captured, Counts, PcapWriter, Survey};
+use super::survey::holds_poses;
+use super::{Capture, CaptureOptions, Captured, Counts, Format, PcapWriter, Survey};
 use crate::beside::{beside, give_name, is_same_file};
 use crate::recording::{Writer, WriterOptions};
 use crate::stop::Stop;
@@ -60,6 +61,10 @@ pub fn convert(from: &Path, to: &Path, options: &ConvertOptions, stop: &Stop) ->
             output.write(captured)?;
             datagrams += 1;
         }
+    }
+    if datagrams == 0 && capture.format() == Format::Mcap && holds_poses(capture.files())? {
+        let path = from.to_owned();
+        return Err(Error::PosesAlone { path });
     }
     output.finish()?;
     give_name(hidden, to, options.overwrite)?;

@@ -46,6 +46,7 @@ mod write;
 pub use convert::{ConvertOptions, Converted, convert};
 pub(crate) use opening::Opening;
 pub(crate) use origin::is_asked;
+pub(crate) use parts::all_from as files_of;
 pub(crate) use playlist::{Due, Playlist, Selection};
 pub use protocol::Protocol;
 pub use survey::{CapturedSource, Survey};

@@ -23,7 +23,7 @@ pub(super) struct Place {
 ///
 /// # Errors
 /// [`Error::MissingPart`] when one is not there and a later one is.
-pub(super) fn all_from(first: &Path) -> Result<Vec<PathBuf>> {
+pub(crate) fn all_from(first: &Path) -> Result<Vec<PathBuf>> {
     let whose = place(first).map_err(|error| Error::read(first, &error))?;
     let Some(whose) = whose.filter(|place| place.part == 1) else {
         return Ok(vec![first.to_owned()]);

@@ -2,6 +2,7 @@
 
 use super::{Capture, CaptureOptions, Captured, Counts, Format, Protocol};
 use crate::endpoint::Endpoint;
+use crate::recording;
 use crate::stop::Stop;
 use crate::{Error, Result, Wire};
 use posewire_motion::Stamp;
@@ -44,14 +45,24 @@ impl Survey {
     /// Reads a capture to its end.
     ///
     /// # Errors
-    /// Those of [`Capture::open`], [`Error::Read`] when reading fails later, [`Error::NoDatagrams`] when there is none.
+    /// Those of [`Capture::open`], [`Error::Read`] when reading fails later, [`Error::NoDatagrams`] when there is none, and
+    /// [`Error::PosesAlone`] when there are poses instead.
     pub fn of(path: &Path, options: &CaptureOptions) -> Result<Self> {
-        let survey = Self::of_any(path, options, &Stop::new())?;
+        Self::of_until(path, options, &Stop::new())
+    }
+
+    /// The same until `stop` is set.
+    pub(crate) fn of_until(path: &Path, options: &CaptureOptions, stop: &Stop) -> Result<Self> {
+        let survey = Self::of_any(path, options, stop)?;
         if survey.heard().next().is_some() {
             return Ok(survey);
         }
+        let path = path.to_owned();
+        if survey.format == Format::Mcap && holds_poses(&survey.files)? {
+            return Err(Error::PosesAlone { path });
+        }
         Err(Error::NoDatagrams {
-            path: path.to_owned(),
+            path,
             found: nothing(&survey.counts),
         })
     }
@@ -197,6 +208,17 @@ fn note(sources: &mut Vec<CapturedSource>, captured: &Captured) {
     let at = captured.datagram.received;
     let (first, last) = source.span.unwrap_or((at, at));
     source.span = Some((first.min(at), last.max(at)));
+}
+
+/// Whether samples stand in a recording.
+pub(super) fn holds_poses(files: &[PathBuf]) -> Result<bool> {
+    for file in files {
+        let survey = recording::Survey::of(file)?;
+        if survey.subjects.iter().any(|subject| subject.frames > 0) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }
 
 fn nothing(counts: &Counts) -> String {

@@ -75,9 +75,15 @@ impl Listener {
             speed: AT_ONCE,
             ..options.clone()
         };
+        let sources = Source::open_all(endpoint, &options)?;
+        if let Endpoint::Capture { path } = endpoint
+            && sources.iter().any(|source| source.captured().is_none())
+        {
+            return Err(Error::PosesAlone { path: path.clone() });
+        }
         Ok(Self {
             endpoint: endpoint.clone(),
-            opened: Opened::Captured(Source::open_all(endpoint, &options)?),
+            opened: Opened::Captured(sources),
         })
     }
 

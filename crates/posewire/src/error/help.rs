@@ -31,6 +31,10 @@ impl Error {
             Self::NoDatagrams { .. } => {
                 Some("posewire explain FILE --protocol mxtp takes every datagram for MXTP".into())
             }
+            Self::PosesAlone { path } => Some(format!(
+                "posewire stream {} --to mxtp://127.0.0.1 sends them; what is recorded there has datagrams",
+                path.display()
+            )),
             Self::CapturedSources { .. } => Some("choose one by number or name, as in --only 0".into()),
             Self::NothingForTarget { path, endpoint, .. } => Some(format!(
                 "posewire stream {} --to \"{endpoint}\" reads it and sends that, in datagrams of its own",

@@ -4,11 +4,13 @@
 //! [`recover`] completes one that was cut off. The format is described in `docs/recording.md`; the constants here are its words.
 
 mod briefing;
+mod described;
 mod description;
 mod format;
 mod lock;
 mod names;
 mod part;
+mod posed;
 mod poses;
 mod records;
 mod recover;
@@ -27,6 +29,7 @@ pub use format::{
 };
 pub use lock::is_being_recorded;
 pub(crate) use lock::{Whereabouts, read_locked};
+pub(crate) use posed::Posed;
 pub use recover::{Recovered, recover};
 pub use survey::{SenderSurvey, SourceSurvey, SubjectSurvey, Survey};
 pub use take_name::{NameError, TakeName};

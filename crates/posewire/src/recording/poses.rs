@@ -1,6 +1,6 @@
 //! Poses as ROS 2 has them: `tf2_msgs/msg/TFMessage` in CDR.
 
-use posewire_motion::{Frame, Pose, Stamp};
+use posewire_motion::{DQuat, DVec3, Frame, Pose, Stamp};
 
 /// The name of the schema.
 pub(super) const SCHEMA_NAME: &str = "tf2_msgs/msg/TFMessage";
@@ -60,6 +60,64 @@ pub(super) fn encode(frame: &Frame, names: &[String], at: Stamp, out: &mut Vec<u
     }
 }
 
+/// The transforms of a message as [`encode`] writes it, from the world to each frame id; `None` of other bytes.
+pub(super) fn decode(message: &[u8]) -> Option<Vec<(&str, Pose)>> {
+    let mut reader = Reader::new(message)?;
+    let count = reader.u32()?;
+    // Each takes more than a byte, so that there are no more of them than bytes.
+    (0..count).map(|_| read_transform(&mut reader)).collect()
+}
+
+fn read_transform<'a>(reader: &mut Reader<'a>) -> Option<(&'a str, Pose)> {
+    reader.align(4);
+    reader.bytes(8)?;
+    reader.text()?;
+    let name = reader.text()?;
+    reader.align(8);
+    let [x, y, z] = [reader.f64()?, reader.f64()?, reader.f64()?];
+    let position = DVec3::new(x, y, z);
+    let [x, y, z, w] = [reader.f64()?, reader.f64()?, reader.f64()?, reader.f64()?];
+    Some((name, Pose::new(position, DQuat::from_xyzw(x, y, z, w))))
+}
+
+/// Little-endian CDR, behind its header.
+struct Reader<'a> {
+    body: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Reader<'a> {
+    fn new(message: &'a [u8]) -> Option<Self> {
+        let body = message.strip_prefix(&[0, 1])?.get(2..)?;
+        Some(Self { body, at: 0 })
+    }
+
+    fn align(&mut self, to: usize) {
+        self.at = self.at.next_multiple_of(to);
+    }
+
+    fn bytes(&mut self, count: usize) -> Option<&'a [u8]> {
+        let bytes = self.body.get(self.at..)?.get(..count)?;
+        self.at += count;
+        Some(bytes)
+    }
+
+    fn u32(&mut self) -> Option<u32> {
+        self.bytes(4)?.try_into().map(u32::from_le_bytes).ok()
+    }
+
+    fn f64(&mut self) -> Option<f64> {
+        self.bytes(8)?.try_into().map(f64::from_le_bytes).ok()
+    }
+
+    fn text(&mut self) -> Option<&'a str> {
+        self.align(4);
+        let length = self.u32()? as usize;
+        let text = self.bytes(length)?.strip_suffix(&[0])?;
+        std::str::from_utf8(text).ok()
+    }
+}
+
 fn push_transform(out: &mut Vec<u8>, at: Stamp, name: &str, pose: &Pose) {
     let nanoseconds = at.nanoseconds();
     align(out, 4);
@@ -96,8 +154,55 @@ const SECOND: i64 = 1_000_000_000;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use posewire_motion::{DQuat, DVec3, Skeleton, Subject};
+    use posewire_motion::{Skeleton, Subject};
+    use proptest::prelude::*;
     use std::sync::Arc;
+
+    fn message(poses: &[Option<(String, [f64; 7])>]) -> Vec<u8> {
+        let mut frame = Frame::new(Arc::new(Subject::new("Ada", Skeleton::default())));
+        let numbers = poses.iter().map(|pose| pose.as_ref().map(|(_, numbers)| *numbers));
+        let numbers: Vec<_> = numbers.collect();
+        frame.position = numbers.iter().map(|n| n.map(|n| DVec3::from_slice(&n))).collect();
+        frame.orientation = numbers.iter().map(|n| n.map(|n| DQuat::from_slice(&n[3..]))).collect();
+        let names = poses
+            .iter()
+            .map(|pose| pose.as_ref().map_or_else(String::new, |(name, _)| name.clone()));
+        let mut out = Vec::new();
+        encode(&frame, &names.collect::<Vec<_>>(), Stamp(7), &mut out);
+        out
+    }
+
+    fn poses() -> impl Strategy<Value = Vec<Option<(String, [f64; 7])>>> {
+        let pose = ("[^\0]{0,9}", prop::array::uniform7(-9.0..9.0));
+        prop::collection::vec(proptest::option::of(pose), 0..9)
+    }
+
+    proptest! {
+        #[test]
+        fn what_was_encoded_is_decoded(poses in poses()) {
+            let message = message(&poses);
+            let decoded = decode(&message).unwrap();
+            let decoded: Vec<_> = decoded.into_iter().map(|(name, pose)| {
+                let (p, q) = (pose.position, pose.orientation);
+                (name.to_owned(), [p.x, p.y, p.z, q.x, q.y, q.z, q.w])
+            }).collect();
+            prop_assert_eq!(decoded, poses.into_iter().flatten().collect::<Vec<_>>());
+        }
+
+        #[test]
+        fn any_bytes_are_decoded_or_refused(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
+            let _ = decode(&[&[0, 1, 0, 0], bytes.as_slice()].concat());
+            let _ = decode(&bytes);
+        }
+
+        #[test]
+        fn a_flipped_bit_is_decoded_or_refused(poses in poses(), bit in any::<prop::sample::Index>()) {
+            let mut message = message(&poses);
+            let bit = bit.index(message.len() * 8);
+            message[bit / 8] ^= 1 << (bit % 8);
+            let _ = decode(&message);
+        }
+    }
 
     #[test]
     fn an_untracked_segment_is_left_out_and_numbers_are_aligned() {

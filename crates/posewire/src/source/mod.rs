@@ -6,6 +6,7 @@ mod file;
 mod mxtp;
 mod natnet;
 mod playback;
+mod posed;
 mod report;
 mod schedule;
 pub mod synthetic;
@@ -15,11 +16,11 @@ mod walk;
 pub use control::PlaybackControl;
 pub use playback::{PlaybackOptions, Preview};
 
-use crate::Result;
 use crate::capture::CapturedSource;
 use crate::endpoint::Endpoint;
 use crate::session::Outlet;
 use crate::stop::Stop;
+use crate::{Error, Result};
 use capture::CapturePlayback;
 use mxtp::{MxtpTcp, MxtpUdp};
 use natnet::NatNet;
@@ -43,7 +44,8 @@ enum Kind {
 }
 
 impl Source {
-    /// Opens what an endpoint names: binds the socket, reads the head of the file. The options are for what is played
+    /// Opens what an endpoint names: binds the socket, reads the head of the file. Of a recording without datagrams, as that of the
+    /// walker, the poses in it are played. The options are for what is played
     /// back; a live source has its own pace.
     ///
     /// # Errors
@@ -54,7 +56,10 @@ impl Source {
             Endpoint::MxtpTcp(address) => Kind::MxtpTcp(MxtpTcp::open(address)?),
             Endpoint::NatNet(address) => Kind::NatNet(Box::new(NatNet::open(address)?)),
             Endpoint::Synthetic(walk) => Kind::Playback(Playback::of_walk(walk, options)?),
-            Endpoint::Capture { path } => Kind::Capture(Box::new(CapturePlayback::open(path, options)?)),
+            Endpoint::Capture { path } => match CapturePlayback::open(path, options) {
+                Err(Error::PosesAlone { .. }) => Kind::Playback(Playback::of_poses(path, options)?),
+                capture => Kind::Capture(Box::new(capture?)),
+            },
             Endpoint::File { path, format } => {
                 format.check_readable(path)?;
                 Kind::Playback(Playback::of_file(path, options)?)
@@ -75,15 +80,31 @@ impl Source {
     /// # Errors
     /// Those of [`open`](Self::open), which takes one source of a capture alone.
     pub fn open_all(endpoint: &Endpoint, options: &PlaybackOptions) -> Result<Vec<Self>> {
+        Self::open_all_until(endpoint, options, &Stop::new())
+    }
+
+    /// As [`open_all`](Self::open_all). A capture is read once to be opened, which takes its time if it is long; `stop` ends that.
+    ///
+    /// # Errors
+    /// Those of [`open_all`](Self::open_all), and [`Error::Stopped`].
+    pub fn open_all_until(endpoint: &Endpoint, options: &PlaybackOptions, stop: &Stop) -> Result<Vec<Self>> {
         let Endpoint::Capture { path } = endpoint else {
             return Self::open(endpoint, options).map(|source| vec![source]);
         };
-        let captures = CapturePlayback::open_all(path, options)?.into_iter();
-        let sources = captures.map(|capture| Self {
+        let source = |kind| Self {
             endpoint: endpoint.clone(),
-            kind: Kind::Capture(Box::new(capture)),
-        });
-        Ok(sources.collect())
+            kind,
+        };
+        match CapturePlayback::open_all(path, options, stop) {
+            Err(Error::PosesAlone { .. }) => {
+                let poses = Playback::of_all_poses(path, options)?.into_iter();
+                Ok(poses.map(Kind::Playback).map(source).collect())
+            }
+            captures => {
+                let captures = captures?.into_iter().map(Box::new);
+                Ok(captures.map(Kind::Capture).map(source).collect())
+            }
+        }
     }
 
     /// Where it is open: the endpoint asked for, with the port that the system chose if it was 0.

@@ -2,6 +2,7 @@
 
 use super::control::{Jump, PlaybackControl};
 use super::file::TakeFile;
+use super::posed;
 use super::report::TICK;
 use super::schedule::Schedule;
 use super::walk::Walkers;
@@ -141,6 +142,18 @@ impl Playback {
 
     pub(super) fn of_walk(walk: &endpoint::Walk, options: &PlaybackOptions) -> Result<Self> {
         Self::new(Box::new(Walkers::new(walk)), options)
+    }
+
+    /// The poses of the one source of a recording that is meant.
+    pub(super) fn of_poses(path: &Path, options: &PlaybackOptions) -> Result<Self> {
+        let poses = posed::open_one(path, options)?;
+        Self::new(Box::new(poses), options)
+    }
+
+    /// The poses of each source of a recording that is meant; of all of them if none is named.
+    pub(super) fn of_all_poses(path: &Path, options: &PlaybackOptions) -> Result<Vec<Self>> {
+        let poses = posed::open_all(path, options)?.into_iter();
+        poses.map(|poses| Self::new(Box::new(poses), options)).collect()
     }
 
     fn new(mut frames: Box<dyn Frames>, options: &PlaybackOptions) -> Result<Self> {

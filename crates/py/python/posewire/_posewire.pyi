@@ -13,6 +13,7 @@ from typing_extensions import Buffer, Never
 
 _Floats = npt.NDArray[np.float64]
 _Path = str | PathLike[str]
+_FilePath = str | bytes | PathLike[str] | PathLike[bytes]
 _Progress = Callable[[int, int], object]
 _Sequence = Literal["zxy", "xzy"]
 
@@ -74,6 +75,7 @@ class Table:
     @property
     def columns(self) -> list[str]: ...
     def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[Any]: ...
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
 
 @final
@@ -152,7 +154,7 @@ class Take:
     def to_arrow(self, sections: Sequence[str] | None = None) -> Table: ...
     def write(
         self,
-        path: _Path,
+        path: _FilePath,
         *,
         overwrite: bool = False,
         progress: _Progress | None = None,
@@ -300,21 +302,21 @@ class Recorder:
     ) -> None: ...
 
 def read(
-    path: _Path,
+    path: _FilePath,
     *,
     subject: str | None = None,
     progress: _Progress | None = None,
     salvage: bool = False,
-    only: str | None = None,
+    only: int | str | None = None,
     duration: float | None = None,
     threads: int | None = None,
 ) -> Take: ...
 def read_all(
-    path: _Path,
+    path: _FilePath,
     *,
     progress: _Progress | None = None,
     salvage: bool = False,
-    only: str | None = None,
+    only: int | str | None = None,
     duration: float | None = None,
     threads: int | None = None,
 ) -> list[Take]: ...

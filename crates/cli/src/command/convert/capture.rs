@@ -43,6 +43,7 @@ pub(super) fn live(
     let options = PlaybackOptions {
         speed: AT_ONCE,
         only: only.map(str::to_owned),
+        computes: false,
         ..PlaybackOptions::default()
     };
     let sources = Source::open_all(endpoint, &options)?;
@@ -78,7 +79,8 @@ pub(super) fn live(
 fn announce(source: &Source) {
     match source.captured() {
         Some(captured) => say(format_args!("playing {}, {}", source.endpoint(), captured.name)),
-        None => say(format_args!("receiving from {}", source.endpoint())),
+        None if source.is_live() => say(format_args!("receiving from {}", source.endpoint())),
+        None => say(format_args!("playing the poses of {}", source.endpoint())),
     }
 }
 

@@ -28,6 +28,7 @@ pub(super) fn run(arguments: &Monitor) -> anyhow::Result<End> {
     refuse_takes(&endpoint)?;
     refuse::capture(&arguments.again.capture, &endpoint)?;
     let sources = Source::open_all(&endpoint, &playback_options(arguments))?;
+    refuse_poses(&sources)?;
     refuse_playback(arguments, &sources)?;
     context::stop_after(&stop, arguments.duration);
     let view = View::choose(arguments.json, arguments.frames, arguments.plain);
@@ -79,6 +80,15 @@ fn refuse_takes(endpoint: &Endpoint) -> Result<(), Usage> {
         problem: format!("expected a live stream to monitor, as mxtp://0.0.0.0:9763, found {endpoint}"),
         help,
     })
+}
+
+/// What is monitored is datagrams, and a recording of the walker has none.
+fn refuse_poses(sources: &[Source]) -> posewire::Result<()> {
+    let poses = |source: &&Source| !source.is_live() && source.captured().is_none();
+    match sources.iter().find(poses).map(Source::endpoint) {
+        Some(Endpoint::Capture { path }) => Err(posewire::Error::PosesAlone { path: path.clone() }),
+        _ => Ok(()),
+    }
 }
 
 /// A board for each source.

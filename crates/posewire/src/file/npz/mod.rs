@@ -73,7 +73,7 @@ fn write_times(job: &Job<'_>, archive: &mut Archive<'_, '_>) -> io::Result<()> {
         &frames,
         take.samples().iter().map(|sample| sample.to_le_bytes()),
     )?;
-    let times = take.times().iter().map(|time| time.as_secs_f64().to_le_bytes());
+    let times = take.seconds().map(f64::to_le_bytes);
     archive.array("time", "<f8", &frames, times)?;
     if take.timecodes().iter().all(Option::is_none) {
         return Ok(());

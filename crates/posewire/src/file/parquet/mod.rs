@@ -127,10 +127,7 @@ impl<'a> Rows<'a> {
                 required::<Int64Type>(to, &samples)
             }
             Of::Time => {
-                let times: Vec<_> = take.times()[range]
-                    .iter()
-                    .map(std::time::Duration::as_secs_f64)
-                    .collect();
+                let times: Vec<_> = take.seconds().skip(range.start).take(range.len()).collect();
                 required::<DoubleType>(to, &times)
             }
             Of::Timecode => {

@@ -41,14 +41,14 @@ struct Together {
 impl CapturePlayback {
     /// Opens the one source that is meant.
     pub(super) fn open(path: &Path, options: &PlaybackOptions) -> Result<Self> {
-        let survey = survey(path, options)?;
+        let survey = survey(path, options, &Stop::new())?;
         let source = survey.choose(path, options.only.as_deref())?;
         Self::of((path, survey.lasts()), options, source, &Together::of(1))
     }
 
-    /// Opens each source that is meant; all of them if none is named.
-    pub(super) fn open_all(path: &Path, options: &PlaybackOptions) -> Result<Vec<Self>> {
-        let survey = survey(path, options)?;
+    /// Opens each source that is meant; all of them if none is named. `stop` ends the reading that this takes.
+    pub(super) fn open_all(path: &Path, options: &PlaybackOptions, stop: &Stop) -> Result<Vec<Self>> {
+        let survey = survey(path, options, stop)?;
         let sources = survey.chosen(path, options.only.as_deref())?;
         if sources.len() > MOST_TOGETHER {
             // It names them all, and asks for one.
@@ -174,14 +174,14 @@ impl Together {
     }
 }
 
-fn survey(path: &Path, options: &PlaybackOptions) -> Result<Survey> {
+fn survey(path: &Path, options: &PlaybackOptions, stop: &Stop) -> Result<Survey> {
     Pacer::new(Instant::now(), options.speed, Stop::new())?;
     if let Some(rate) = options.rate_hz {
         return Err(Error::CaptureRate {
             found: rate.to_string(),
         });
     }
-    Survey::of(path, &reading(options))
+    Survey::of_until(path, &reading(options), stop)
 }
 
 fn reading(options: &PlaybackOptions) -> CaptureOptions {
@@ -210,3 +210,32 @@ fn pass(
 
 /// Each has a thread that reads the capture. So many sources are several systems; more of them are a network.
 const MOST_TOGETHER: usize = 64;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recording::{Writer, WriterOptions};
+    use crate::{Datagram, SourceId, Wire};
+    use posewire_motion::Stamp;
+
+    #[test]
+    fn opening_a_long_capture_ends_when_it_is_stopped() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("take.mcap");
+        let mut writer = Writer::create(&path, &["mxtp://h:9763".to_owned()], WriterOptions::default()).unwrap();
+        let datagram = Datagram {
+            wire: Wire::MxtpUdp,
+            from: ([10, 0, 0, 1], 1).into(),
+            to: ([10, 0, 0, 2], 9763).into(),
+            received: Stamp(1),
+            bytes: (*b"MXTP02").into(),
+        };
+        writer.datagram(SourceId(0), &Arc::new(datagram)).unwrap();
+        writer.finish().unwrap();
+        let (options, stop) = (PlaybackOptions::default(), Stop::new());
+        assert_eq!(CapturePlayback::open_all(&path, &options, &stop).unwrap().len(), 1);
+        stop.stop();
+        let refused = CapturePlayback::open_all(&path, &options, &stop).unwrap_err();
+        assert!(matches!(refused, Error::Stopped { .. }), "{refused}");
+    }
+}
