@@ -21,7 +21,7 @@ use std::time::Duration;
 /// Opens targets that samples of the program's own are sent to: "mxtp://HOST:PORT", "mxtp+tcp://HOST:PORT", and
 /// "natnet://0.0.0.0", which is a server.
 ///
-/// `names` are the subjects, all of one `skeleton`; MVN's own if it is left out. `rate` is in samples a second and makes the
+/// `names` are the subjects, each once and all of one `skeleton`; MVN's own if it is left out. `rate` is in samples a second and makes the
 /// clock of samples that come without a time. `types` are the MXTP datagram types, as "02,12,13,20" or "all".
 ///
 /// Raises NetworkError and UsageError as the command line does.
