@@ -9,7 +9,7 @@ use crate::skeleton::Skeleton;
 use posewire::endpoint::Endpoint;
 use posewire::sink::{MxtpSink, MxtpSinkOptions, NatNetSink, NatNetSinkOptions};
 use posewire::stop::Stop;
-use posewire::{Item, Session, Sink};
+use posewire::{Error, Item, Session, Sink};
 use posewire_motion::Subject;
 use posewire_mxtp::motion::MessageTypes;
 use pyo3::prelude::*;
@@ -94,19 +94,15 @@ fn check_rate(rate: f64) -> PyResult<()> {
     ))
 }
 
-/// Where motion can be sent.
+/// Where motion can be sent. What is no url at all can be no file here either.
 fn target(url: &str) -> PyResult<Endpoint> {
-    let found = match url.parse() {
+    let endpoint = match url.parse() {
         Ok(target @ (Endpoint::MxtpUdp(_) | Endpoint::MxtpTcp(_) | Endpoint::NatNet(_))) => return Ok(target),
-        Ok(Endpoint::Synthetic(_)) => "the built-in walker, which only sends",
-        Ok(_) => "a file",
-        Err(posewire::Error::UnknownFormat { .. }) => "no url",
+        Ok(other) => other.to_string(),
+        Err(Error::UnknownFormat { path, .. }) => path,
         Err(error) => return Err(raised(&error)),
     };
-    Err(usage(
-        format!("{url:?}: expected mxtp://HOST:PORT, mxtp+tcp://HOST:PORT or natnet://HOST to send to, found {found}"),
-        "send the samples of a take one by one with send(); take.write() writes files",
-    ))
+    Err(raised(&Error::NotATarget { endpoint }))
 }
 
 fn message_types(text: &str, mxtp: bool) -> PyResult<MessageTypes> {
