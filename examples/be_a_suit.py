@@ -17,7 +17,7 @@ RATE = 60
 
 def pose(skeleton, seconds):
     """The T-pose, with the right forearm turning about the vertical axis."""
-    position = skeleton.origins.copy()
+    position = skeleton.origins
     orientation = np.tile([1.0, 0.0, 0.0, 0.0], (len(skeleton), 1))
     half = seconds * np.pi / 4
     orientation[skeleton.segments.index("RightForeArm")] = [np.cos(half), 0, 0, np.sin(half)]
@@ -29,8 +29,11 @@ def stream_to(url, seconds):
     with posewire.streamer(url, skeleton=skeleton, rate=RATE, names=["Robot"]) as streamer:
         start = time.monotonic()
         for sample in range(int(seconds * RATE)):
-            streamer.send(*pose(skeleton, sample / RATE))
+            clock = sample / RATE
+            streamer.send(*pose(skeleton, clock), time=clock)
             time.sleep(max(0, start + (sample + 1) / RATE - time.monotonic()))
+        if streamer.dropped:
+            print(streamer.dropped, "samples did not reach the receiver:", *streamer.notices, file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -277,3 +277,126 @@ def test_close_raises_what_no_sample_has_told(walk):
         streamer = posewire.streamer(nowhere())
         streamer.send(**numbers(walk, *POSE))
         streamer.close()
+
+
+@pytest.mark.parametrize(
+    ("url", "arguments", "message"),
+    [
+        ("x", {}, "x: motion cannot be sent there, expected mxtp://HOST:PORT, mxtp.tcp://HOST:PORT or natnet://HOST"),
+        ("take.mcap", {}, "take.mcap: motion cannot be sent there"),
+        ("take.mvnx", {}, "take.mvnx: motion cannot be sent there"),
+        ("synthetic:walk", {}, "motion cannot be sent there"),
+        ("osc://127.0.0.1", {}, "unknown scheme"),
+        (None, {"names": []}, "expected a name for each subject, found none"),
+        (None, {"names": "Ada"}, "expected a list of names, found 'Ada'"),
+        (None, {"names": ["Ada", "Bob", "Ada"]}, 'expected each name once, found "Ada" twice'),
+        (None, {"names": ["Ada\nname:Bob"]}, "expected names of one line"),
+        (None, {"names": [" "]}, "expected names of one line"),
+        (None, {"names": ["A" * 1025]}, "at most 1024 bytes in UTF-8, found one of 1025"),
+        (None, {"names": [str(number) for number in range(257)]}, "at most 256 subjects"),
+        (None, {"rate": 0}, "expected from 0.001 to 100000 samples a second as the rate, found 0"),
+        (None, {"rate": float("nan")}, "found NaN"),
+        (None, {"rate": float("inf")}, "found inf"),
+        (None, {"rate": -1}, "found -1"),
+        (None, {"rate": 1e9}, "found 1000000000"),
+        ("natnet://127.0.0.1:0?data-port=0", {"types": "02"}, "expected no types= without an MXTP url"),
+        ("natnet://127.0.0.1:0?data-port=0", {"names": ["A" * 256]}, "at most 255 bytes"),
+    ],
+)
+def test_what_cannot_be_opened_is_refused(url, arguments, message):
+    with pytest.raises(posewire.UsageError, match=message):
+        posewire.streamer(url or "mxtp://127.0.0.1:9", **arguments)
+
+
+def test_numbers_and_subjects_that_there_are_not_are_refused(to_nobody, walk):
+    pose = numbers(walk, *POSE)
+    for sample in [-1, 2**32, 2**70]:
+        with pytest.raises(posewire.UsageError, match="expected a whole number from 0 to"):
+            to_nobody.send(**pose, sample=sample)
+    for subject in ["Zoe", 1, -1, 1.5]:
+        with pytest.raises(posewire.UsageError, match='expected one of the subjects "posewire", found'):
+            to_nobody.send(**pose, subject=subject)
+    with pytest.raises(posewire.UsageError, match="expected where to send to"):
+        posewire.streamer()
+
+
+def test_subjects_of_a_moment_have_one_number(walk):
+    with posewire.listen("mxtp://127.0.0.1:0") as stream:
+        with posewire.streamer(stream.url, names=["Ada", "Bob"]) as streamer:
+            for name in ["Ada", "Ada", "Bob", "Ada", "Bob", "Bob", "Ada"]:
+                streamer.send(**numbers(walk, *POSE), subject=name)
+            streamer.send(**numbers(walk, *POSE), subject="Bob", sample=10)
+            streamer.send(**numbers(walk, *POSE), subject=0)
+            frames = [stream.next(timeout=10) for _ in range(9)]
+    numbered = {name: [frame.sample for frame in frames if frame.subject == name] for name in ["Ada", "Bob"]}
+    assert numbered == {"Ada": [0, 1, 2, 3, 10], "Bob": [1, 2, 3, 10]}
+
+
+def test_subjects_of_a_moment_share_a_natnet_frame(walk):
+    def frames(streamer):
+        return [client["frames"] for client in streamer.progress()["targets"][0]["clients"]]
+
+    with posewire.streamer("natnet://127.0.0.1:0?data-port=0", names=["Ada", "Bob"]) as streamer:
+        with posewire.listen(streamer.urls[0]) as stream:
+            until(lambda: streamer.notices)
+            for _ in range(20):
+                streamer.send(**numbers(walk, *POSE), subject="Ada")
+                # However long the program takes for the others.
+                time.sleep(0.02)
+                streamer.send(**numbers(walk, *POSE), subject="Bob")
+            until(lambda: frames(streamer) == [20])
+            got = [stream.next(timeout=10) for _ in range(40)]
+            assert sorted((frame.sample, frame.subject) for frame in got) == [
+                (sample, name) for sample in range(20) for name in ["Ada", "Bob"]
+            ]
+
+
+SENT = {
+    "position": 0,
+    "orientation": 0,
+    "velocity": 0,
+    "acceleration": 0,
+    "angular_velocity": 0,
+    "angular_acceleration": 0,
+    "center_of_mass": 0,
+    "center_of_mass_velocity": 0,
+    "center_of_mass_acceleration": 0,
+    **dict.fromkeys(INERTIAL, 0),
+    # Degrees on the wire.
+    "joint_angles": 2e-7,
+    "ergonomic_angles": 2e-7,
+}
+
+
+def test_every_section_comes_back_as_32_bits_have_it(walk):
+    skeleton = walk.skeleton
+    with posewire.listen("mxtp://127.0.0.1:0") as stream:
+        with posewire.streamer(stream.url, skeleton=skeleton, names=["Zoë"], types="all") as streamer:
+            for place in range(100):
+                streamer.send(**numbers(walk, *SENT, place=place))
+            frames = [stream.next(timeout=10) for _ in range(100)]
+    for place, frame in enumerate(frames):
+        assert (frame.sample, frame.subject) == (place, "Zoë")
+        assert abs(frame.time - place / 240) <= 1e-3
+        for section, bound in SENT.items():
+            expected = walk[section][place]
+            expected = expected.astype(np.float32) if bound == 0 else expected
+            np.testing.assert_allclose(frame[section], expected, rtol=bound, atol=bound, err_msg=section)
+    assert frame.segments == skeleton.segments and frame.joints == skeleton.joints
+    np.testing.assert_array_equal(frame.skeleton.origins, skeleton.origins.astype(np.float32))
+
+
+@pytest.mark.parametrize("version", ["3.1", "4.1"])
+def test_poses_come_back_over_natnet(walk, version):
+    with posewire.streamer(f"natnet://127.0.0.1:0?data-port=0&version={version}", names=["Zoë"]) as streamer:
+        with posewire.listen(streamer.urls[0]) as stream:
+            until(lambda: streamer.notices)
+            for place in range(50):
+                streamer.send(**numbers(walk, *POSE, place=place), time=place / 7)
+            frames = [stream.next(timeout=10) for _ in range(50)]
+    for place, frame in enumerate(frames):
+        assert (frame.sample, frame.subject) == (place, "Zoë")
+        assert frame.time == pytest.approx(place / 7, abs=1e-9)
+        for section in POSE:
+            np.testing.assert_array_equal(frame[section], walk[section][place].astype(np.float32), err_msg=section)
+    assert frame.segments == walk.segments

@@ -2,149 +2,27 @@
 
 mod carrying;
 mod frame;
+mod numbering;
 mod numbers;
+mod opening;
 mod told;
 
 use crate::error::{exception, raised, usage};
+use crate::number::Whole;
 use crate::section::named;
 use crate::skeleton::Skeleton;
 use carrying::Carrying;
 use frame::{clock, set, timecode};
-use posewire::endpoint::Endpoint;
-use posewire::sink::{MxtpSink, MxtpSinkOptions, NatNetSink, NatNetSinkOptions, Progress};
-use posewire::stop::Stop;
-use posewire::{Feed, Item, Session, Sink};
+use numbering::Numbering;
+pub(crate) use opening::streamer;
+use posewire::sink::Progress;
+use posewire::{Feed, Item, Session};
 use posewire_motion::{Frame, Section, Subject};
-use posewire_mxtp::motion::MessageTypes;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use told::Told;
-
-/// Opens targets that samples of the program's own are sent to: "mxtp://HOST:PORT", "mxtp+tcp://HOST:PORT", and
-/// "natnet://0.0.0.0", which is a server.
-///
-/// `names` are the subjects, all of one `skeleton`; MVN's own if it is left out. `rate` is in samples a second and makes the
-/// clock of samples that come without a time. `types` are the MXTP datagram types, as "02,12,13,20" or "all".
-///
-/// Raises NetworkError and UsageError as the command line does.
-#[pyfunction]
-#[pyo3(signature = (*urls, skeleton = None, rate = 240.0, names = None, types = None))]
-pub(crate) fn streamer(
-    py: Python<'_>,
-    urls: &Bound<'_, PyTuple>,
-    skeleton: Option<PyRef<'_, Skeleton>>,
-    rate: f64,
-    names: Option<Vec<String>>,
-    types: Option<&str>,
-) -> PyResult<Streamer> {
-    if !(rate.is_finite() && rate > 0.0) {
-        return Err(usage(
-            format!("expected samples a second as the rate, found {rate}"),
-            "use a number above 0",
-        ));
-    }
-    let skeleton = skeleton.map_or_else(
-        || posewire_motion::Skeleton::standard(0, false),
-        |skeleton| skeleton.subject.skeleton.clone(),
-    );
-    let names = names.unwrap_or_else(|| vec!["posewire".to_owned()]);
-    let subjects: Vec<_> = (0..)
-        .zip(&names)
-        .map(|(id, name)| subject(id, name, &skeleton, rate))
-        .collect();
-    let urls = urls.extract::<Vec<String>>()?;
-    let mut options = MxtpSinkOptions::default();
-    if let Some(types) = types {
-        options.types = message_types(types)?;
-    }
-    let carrying = Carrying {
-        mxtp: urls.iter().any(|url| !is_natnet(url)).then_some(options.types),
-        natnet: urls.iter().any(|url| is_natnet(url)),
-    };
-    let opened = py.detach(|| open(&urls, &subjects, options, rate));
-    let (sinks, told) = opened.map_err(|error| raised(&error))?;
-    if sinks.is_empty() {
-        return Err(usage(
-            "expected where to send to, found nothing",
-            "as in posewire.streamer(\"mxtp://127.0.0.1:9763\")",
-        ));
-    }
-    let (session, mut feed) = Session::fed(sinks, Stop::new());
-    feed.push(subjects.iter().cloned().map(Item::Subject));
-    Ok(Streamer {
-        urls: urls_of(&told),
-        told,
-        failure: Mutex::new(None),
-        rate,
-        next: Mutex::new(vec![0; subjects.len()]),
-        subjects,
-        carrying,
-        running: Mutex::new(Some(Running { session, feed })),
-    })
-}
-
-fn is_natnet(url: &str) -> bool {
-    matches!(url.parse(), Ok(Endpoint::NatNet(_)))
-}
-
-fn message_types(text: &str) -> PyResult<MessageTypes> {
-    let types = text.parse().unwrap_or(MessageTypes::NONE);
-    if types.is_empty() || types.iter().any(|one| !MessageTypes::ALL.contains(one)) {
-        let message = format!("expected datagram types with two digits and commas, found {text:?}");
-        return Err(usage(message, format!("use all, or some of {}", MessageTypes::ALL)));
-    }
-    Ok(types)
-}
-
-fn subject(id: u32, name: &str, skeleton: &posewire_motion::Skeleton, rate: f64) -> Arc<Subject> {
-    Arc::new(Subject {
-        id,
-        rate: Some(rate),
-        ..Subject::new(name, skeleton.clone())
-    })
-}
-
-type Sinks = Vec<Box<dyn Sink>>;
-
-/// Opens the sinks, and tells how they are doing.
-fn open(
-    urls: &[String],
-    subjects: &[Arc<Subject>],
-    options: MxtpSinkOptions,
-    rate: f64,
-) -> posewire::Result<(Sinks, Vec<Told>)> {
-    let mut mxtp = Vec::new();
-    let mut sinks = Sinks::new();
-    let mut told = Vec::new();
-    for url in urls {
-        let target = url.parse::<Endpoint>()?;
-        let Endpoint::NatNet(address) = target else {
-            mxtp.push(target);
-            continue;
-        };
-        let options = NatNetSinkOptions {
-            rate: Some(rate),
-            ..NatNetSinkOptions::default()
-        };
-        let mut sink = NatNetSink::open(&address, options)?;
-        subjects.iter().try_for_each(|subject| sink.describe(subject))?;
-        told.push(Told::of_natnet(&sink));
-        sinks.push(Box::new(sink));
-    }
-    if !mxtp.is_empty() {
-        let sink = MxtpSink::open(&mxtp, options)?;
-        told.push(Told::of_mxtp(&sink));
-        sinks.push(Box::new(sink));
-    }
-    Ok((sinks, told))
-}
-
-fn urls_of(told: &[Told]) -> Vec<String> {
-    let targets = told::progress(told).targets.into_iter();
-    targets.map(|target| target.endpoint).collect()
-}
 
 /// Sends samples as a suit does. Use it as a context manager, or close it.
 #[pyclass(frozen, module = "posewire")]
@@ -156,8 +34,7 @@ pub(crate) struct Streamer {
     rate: f64,
     subjects: Vec<Arc<Subject>>,
     carrying: Carrying,
-    /// Per subject: the number of its next sample.
-    next: Mutex<Vec<u32>>,
+    numbering: Mutex<Numbering>,
     running: Mutex<Option<Running>>,
 }
 
@@ -169,14 +46,6 @@ struct Running {
 impl Streamer {
     fn lock(&self) -> MutexGuard<'_, Option<Running>> {
         self.running.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// The number of the next sample of a subject, after the one that is sent now.
-    fn number(&self, subject: usize, sample: Option<u32>) -> u32 {
-        let mut next = self.next.lock().unwrap_or_else(PoisonError::into_inner);
-        let sample = sample.unwrap_or(next[subject]);
-        next[subject] = sample.wrapping_add(1);
-        sample
     }
 
     /// The place of the subject with this number or name; the first if left out.
@@ -273,8 +142,9 @@ impl Streamer {
     /// names: velocity=, joint_angles=, sensor_orientation= ... Whatever is given is sent to a target that has a place for it. Quaternions
     /// whose length is within 0.001 of 1 are made so long.
     ///
-    /// `sample` is the number of the sample, one more than the last if left out; `time` is the program's own clock in seconds from 0, the
-    /// number by the rate if left out; `timecode` is the time of day, UTC, in seconds since midnight.
+    /// `sample` is the number of the sample. Left out, it is the same for all subjects of a moment, which ends when one of them is sent
+    /// again: over NatNet they share a frame, which leaves when it has all of them or the next moment begins.
+    /// `time` is the program's own clock in seconds from 0, the number by the rate if left out; `timecode` is the time of day, UTC, in seconds since midnight.
     ///
     /// Raises UsageError for arrays that do not fit the skeleton and for what no target has a place for, ClosedError after the end,
     /// and what ended the sending.
@@ -287,7 +157,7 @@ impl Streamer {
         position: Option<&Bound<'_, PyAny>>,
         orientation: Option<&Bound<'_, PyAny>>,
         subject: Option<&Bound<'_, PyAny>>,
-        sample: Option<u32>,
+        sample: Option<Whole>,
         time: Option<f64>,
         timecode: Option<f64>,
         sections: Option<&Bound<'_, PyDict>>,
@@ -317,8 +187,16 @@ impl Streamer {
             frame.timecode = Some(self::timecode(seconds)?);
             self.carrying.check_timecode()?;
         }
+        let most = if self.carrying.natnet {
+            i32::MAX as u32
+        } else {
+            u32::MAX
+        };
+        let sample = sample.map(|sample| sample.within("sample", 0..=most)).transpose()?;
         let time = time.map(|time| clock(time, self.carrying)).transpose()?;
-        frame.sample = self.number(place, sample);
+        let mut numbering = self.numbering.lock().unwrap_or_else(PoisonError::into_inner);
+        frame.sample = numbering.number(place, sample);
+        drop(numbering);
         let by_rate = || Duration::from_secs_f64(f64::from(frame.sample) / self.rate);
         frame.time = time.unwrap_or_else(by_rate);
         py.detach(|| self.push(frame)).map_err(|ended| match ended {

@@ -160,6 +160,6 @@ fn natnet_options(arguments: &Stream, preview: Option<&Preview>) -> NatNetSinkOp
         name: arguments.name.clone(),
         rate,
         silence_limit: arguments.silence.or(usual.silence_limit),
-        faults: None,
+        ..usual
     }
 }

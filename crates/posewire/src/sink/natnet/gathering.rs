@@ -17,8 +17,10 @@ pub(super) struct Share {
 ///
 /// A subject is awaited from its description on, and no longer when it was missing from so many packets in a row that it
 /// has probably gone.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Gathering {
+    /// How long the subjects of a sample may come after each other.
+    limit: Duration,
     shares: Vec<Share>,
     begun: Option<Instant>,
     /// Packets taken so far.
@@ -30,6 +32,18 @@ pub(super) struct Gathering {
 }
 
 impl Gathering {
+    /// Of subjects of a sample that come within `limit` of each other.
+    pub(super) fn new(limit: Duration) -> Self {
+        Self {
+            limit,
+            shares: Vec::new(),
+            begun: None,
+            packets: 0,
+            partial: 0,
+            seen: BTreeMap::new(),
+        }
+    }
+
     /// Awaits a subject from now on.
     pub(super) fn expect(&mut self, subject: u32) {
         self.seen.insert(subject, self.packets);
@@ -63,7 +77,7 @@ impl Gathering {
 
     /// Whether who is missing has had time enough.
     pub(super) fn is_overdue(&self, now: Instant) -> bool {
-        let waited = |begun: Instant| now.saturating_duration_since(begun) >= Self::TIME_LIMIT;
+        let waited = |begun: Instant| now.saturating_duration_since(begun) >= self.limit;
         self.begun.is_some_and(waited)
     }
 
@@ -86,9 +100,6 @@ impl Gathering {
     fn holds(&self, subject: u32) -> bool {
         self.shares.iter().any(|share| share.frame.subject.id == subject)
     }
-
-    /// How long the subjects of a sample may come after each other.
-    pub(super) const TIME_LIMIT: Duration = Duration::from_millis(10);
 }
 
 /// In so many packets a subject may be missing before nobody waits for it any more.
@@ -100,6 +111,8 @@ const PARTIAL_LIMIT: u64 = 100;
 mod tests {
     use super::*;
     use posewire_motion::{Skeleton, Subject};
+
+    const LIMIT: Duration = Duration::from_millis(10);
 
     fn share(subject: u32, sample: u32) -> Share {
         let subject = Subject {
@@ -133,7 +146,7 @@ mod tests {
 
     #[test]
     fn subjects_of_one_sample_share_a_packet() {
-        let mut gathering = Gathering::default();
+        let mut gathering = Gathering::new(LIMIT);
         (0..2).for_each(|subject| gathering.expect(subject));
         let found = packets(&mut gathering, &[(0, 5), (1, 5), (1, 6), (0, 6)]);
         assert_eq!(found, [[(0, 5), (1, 5)], [(1, 6), (0, 6)]]);
@@ -141,7 +154,7 @@ mod tests {
 
     #[test]
     fn a_missing_subject_is_waited_for_until_the_next_sample_and_then_no_more() {
-        let mut gathering = Gathering::default();
+        let mut gathering = Gathering::new(LIMIT);
         (0..2).for_each(|subject| gathering.expect(subject));
         let alone: Vec<_> = (0..12).map(|sample| (0, sample)).collect();
         let found = packets(&mut gathering, &alone);
@@ -153,14 +166,14 @@ mod tests {
 
     #[test]
     fn a_sample_number_that_repeats_is_another_packet() {
-        let mut gathering = Gathering::default();
+        let mut gathering = Gathering::new(LIMIT);
         let found = packets(&mut gathering, &[(0, 7), (0, 7)]);
         assert_eq!(found, [[(0, 7)], [(0, 7)]]);
     }
 
     #[test]
     fn subjects_that_are_numbered_apart_are_told_from_one_that_is_missing() {
-        let mut gathering = Gathering::default();
+        let mut gathering = Gathering::new(LIMIT);
         (0..2).for_each(|subject| gathering.expect(subject));
         let mut told = |shares: &[(u32, u32)]| {
             let told = |share| {
@@ -181,13 +194,13 @@ mod tests {
 
     #[test]
     fn what_has_waited_long_enough_is_overdue() {
-        let mut gathering = Gathering::default();
+        let mut gathering = Gathering::new(LIMIT);
         gathering.expect(1);
         let begun = Instant::now();
         gathering.push(begun, share(0, 1));
         assert!(!gathering.is_complete() && !gathering.is_overdue(begun));
-        assert!(gathering.is_overdue(begun + Gathering::TIME_LIMIT));
+        assert!(gathering.is_overdue(begun + LIMIT));
         assert_eq!(gathering.take().len(), 1);
-        assert!(!gathering.is_overdue(begun + Gathering::TIME_LIMIT));
+        assert!(!gathering.is_overdue(begun + LIMIT));
     }
 }

@@ -31,17 +31,20 @@ pub struct NatNetSinkOptions {
     pub rate: Option<f64>,
     /// Silence after which a client is dropped and told so; `None` for never.
     pub silence_limit: Option<Duration>,
+    /// How long the subjects of a sample may come after each other and still share a frame.
+    pub gather: Duration,
     /// What is to go wrong with the frames; answers to clients are spared.
     pub faults: Option<FaultPlan>,
 }
 
 impl Default for NatNetSinkOptions {
-    /// The subjects' own names and rates; clients are dropped after 10 s.
+    /// The subjects' own names and rates; clients are dropped after 10 s, and subjects may come 10 ms after each other.
     fn default() -> Self {
         Self {
             name: None,
             rate: None,
             silence_limit: Some(Duration::from_secs(10)),
+            gather: Duration::from_millis(10),
             faults: None,
         }
     }
@@ -56,7 +59,7 @@ impl Default for NatNetSinkOptions {
 /// known here.
 ///
 /// The samples of several subjects that have the same number become one NatNet frame. It is sent when all of them have
-/// come, when a sample of another number comes, or 10 ms after the first of them; a subject that is missing from
+/// come, when a sample of another number comes, or [`gather`](NatNetSinkOptions::gather) after the first of them; a subject that is missing from
 /// eight frames in a row is waited for no more.
 ///
 /// Host stamps say of a paced source that exposure and reception were when the sample was due, of a live one

@@ -63,7 +63,7 @@ impl Serving {
             clock: Clock::new(),
             encoder: Encoder::new(address.settings()),
             subjects: BTreeMap::new(),
-            gathering: Gathering::default(),
+            gathering: Gathering::new(options.gather),
             ledger: Ledger::default(),
             frames: 0,
             lateness: DurationHistogram::new(),
@@ -87,11 +87,7 @@ impl Serving {
 
     /// How long the other thread may wait for commands before it looks whether something is due.
     pub(super) fn patience(&self) -> Duration {
-        if self.gathering.subjects() > 1 {
-            Gathering::TIME_LIMIT
-        } else {
-            IDLE
-        }
+        if self.gathering.subjects() > 1 { GATHERING } else { IDLE }
     }
 
     /// Tells clients of a subject that is new or changed.
@@ -335,5 +331,7 @@ fn server_options(opened: &NatNetAddress, options: &NatNetSinkOptions) -> Server
 
 const NUMBERED_APART: &str =
     "the sources number their samples each for itself, so that each person is missing from frames";
+/// How often it is looked whether gathered subjects have waited long enough.
+const GATHERING: Duration = Duration::from_millis(10);
 const IDLE: Duration = Duration::from_millis(50);
 const SUMMARISE_EVERY: Duration = Duration::from_millis(100);
