@@ -1,6 +1,7 @@
 //! Recordings of live streams.
 
 use crate::error::{raised, usage};
+use crate::process::Opened;
 use posewire::sink::{RecordOptions, RecordProgress, RecordSink};
 use posewire::source::PlaybackOptions;
 use posewire::stop::Stop;
@@ -19,9 +20,30 @@ use std::sync::{Arc, Mutex, PoisonError};
 #[pyclass(frozen, module = "posewire")]
 pub(crate) struct Recorder {
     urls: Vec<String>,
+    recording: Opened<Recording>,
+}
+
+/// What runs.
+struct Recording {
     progress: Arc<Mutex<RecordProgress>>,
     stop: Stop,
     session: Mutex<Option<Session>>,
+}
+
+impl Recording {
+    /// Completes the file. The second time there is nothing to do.
+    fn end(&self) -> posewire::Result<()> {
+        self.stop.stop();
+        let session = self.session.lock().unwrap_or_else(PoisonError::into_inner).take();
+        session.map_or(Ok(()), |session| session.wait().map(drop))
+    }
+}
+
+impl Drop for Recording {
+    fn drop(&mut self) {
+        // So that the file is complete when Python ends; the threads need nothing of Python, and there is nobody to be told.
+        let _ = self.end();
+    }
 }
 
 #[pymethods]
@@ -58,7 +80,12 @@ impl Recorder {
 
     /// How far it has come: a dict of file, files, bytes, datagrams, frames, lost (on this machine) and failure.
     fn progress<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let progress = self.progress.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let recording = self.recording.here()?;
+        let progress = recording
+            .progress
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .clone();
         let told = PyDict::new(py);
         told.set_item("file", &progress.file)?;
         told.set_item("files", progress.files)?;
@@ -72,10 +99,10 @@ impl Recorder {
 
     /// Completes the file and ends it. Raises what kept it from being written.
     fn close(&self, py: Python<'_>) -> PyResult<()> {
-        self.stop.stop();
-        let session = self.session.lock().unwrap_or_else(PoisonError::into_inner).take();
-        let Some(session) = session else { return Ok(()) };
-        py.detach(|| session.wait()).map(drop).map_err(|error| raised(&error))
+        let Some(recording) = self.recording.if_here() else {
+            return Ok(());
+        };
+        py.detach(|| recording.end()).map_err(|error| raised(&error))
     }
 
     fn __enter__(this: Py<Self>) -> Py<Self> {
@@ -98,19 +125,13 @@ fn start(urls: &[String], path: &std::path::Path, options: RecordOptions) -> pos
     let endpoints: Vec<_> = sources.iter().map(|source| source.endpoint().clone()).collect();
     let stop = Stop::new();
     let sink = RecordSink::create(path, &endpoints, options, stop.clone())?;
-    Ok(Recorder {
-        urls: endpoints.iter().map(ToString::to_string).collect(),
+    let recording = Recording {
         progress: sink.progress(),
         session: Mutex::new(Some(Session::start(sources, vec![Box::new(sink)], stop.clone()))),
         stop,
+    };
+    Ok(Recorder {
+        urls: endpoints.iter().map(ToString::to_string).collect(),
+        recording: Opened::new("the recorder", recording),
     })
-}
-
-impl Drop for Recorder {
-    fn drop(&mut self) {
-        self.stop.stop();
-        let session = self.session.get_mut().unwrap_or_else(PoisonError::into_inner).take();
-        // So that the file is complete when Python ends; the threads need nothing of Python, and there is nobody to be told.
-        let _ = session.map(Session::wait);
-    }
 }
