@@ -56,7 +56,7 @@ mod _posewire {
     #[pymodule_export]
     use super::frame::Frame;
     #[pymodule_export]
-    use super::listen::{Stream, listen};
+    use super::listen::{Bell, Stream, listen};
     #[pymodule_export]
     use super::read::{read, read_all};
     #[pymodule_export]
