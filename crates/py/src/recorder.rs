@@ -1,14 +1,17 @@
 //! Recordings of live streams.
 
-use crate::error::{raised, usage};
+use crate::error::{exception, raised, usage};
+use crate::listen::arguments::texts;
 use crate::process::Opened;
+use posewire::capture::Format;
+use posewire::endpoint::{Endpoint, FileFormat};
 use posewire::sink::{RecordOptions, RecordProgress, RecordSink};
 use posewire::source::PlaybackOptions;
 use posewire::stop::Stop;
 use posewire::{Session, Source};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Records live streams into an MCAP file from the moment it is made: every datagram as it came, and the poses in them.
@@ -17,7 +20,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// file a tenth of a second later in any case.
 ///
 /// Raises WriteError when the file is there and `overwrite` is not set, or cannot be written; NetworkError and UsageError for urls.
-#[pyclass(frozen, module = "posewire")]
+#[pyclass(frozen, weakref, module = "posewire")]
 pub(crate) struct Recorder {
     urls: Vec<String>,
     recording: Opened<Recording>,
@@ -31,6 +34,11 @@ struct Recording {
 }
 
 impl Recording {
+    /// Whether its file is complete, or about to be.
+    fn has_ended(&self) -> bool {
+        self.session.lock().unwrap_or_else(PoisonError::into_inner).is_none()
+    }
+
     /// Completes the file. The second time there is nothing to do.
     fn end(&self) -> posewire::Result<()> {
         self.stop.stop();
@@ -42,7 +50,7 @@ impl Recording {
 impl Drop for Recording {
     fn drop(&mut self) {
         // So that the file is complete when Python ends; the threads need nothing of Python, and there is nobody to be told.
-        let _ = self.end();
+        let _ = Python::try_attach(|py| py.detach(|| self.end())).unwrap_or_else(|| self.end());
     }
 }
 
@@ -55,20 +63,22 @@ impl Recorder {
         urls: &Bound<'_, PyTuple>,
         path: PathBuf,
         overwrite: bool,
-        split_megabytes: Option<u64>,
+        split_megabytes: Option<i64>,
     ) -> PyResult<Self> {
-        let urls = urls.extract::<Vec<String>>()?;
+        let urls = texts(urls)?;
         if urls.is_empty() {
             return Err(usage(
                 "expected what to record, found nothing",
                 "as in Recorder(\"mxtp://0.0.0.0:9763\", path=\"take.mcap\")",
             ));
         }
+        let endpoints = urls.iter().map(|url| live(url)).collect::<PyResult<Vec<_>>>()?;
+        refuse(&path)?;
         let options = RecordOptions {
-            split: split_megabytes.map(|megabytes| megabytes.saturating_mul(1_000_000)),
+            split: split_megabytes.map(split).transpose()?,
             overwrite,
         };
-        py.detach(|| start(&urls, &path, options))
+        py.detach(|| start(&endpoints, &path, options))
             .map_err(|error| raised(&error))
     }
 
@@ -105,8 +115,16 @@ impl Recorder {
         py.detach(|| recording.end()).map_err(|error| raised(&error))
     }
 
-    fn __enter__(this: Py<Self>) -> Py<Self> {
-        this
+    fn __enter__(this: PyRef<'_, Self>) -> PyResult<PyRef<'_, Self>> {
+        if this.recording.here()?.has_ended() {
+            let help = "it records once: make another, into another file";
+            return Err(exception(
+                "ClosedError",
+                "the recorder is closed".to_owned(),
+                Some(help.to_owned()),
+            ));
+        }
+        Ok(this)
     }
 
     #[pyo3(signature = (*_raised))]
@@ -119,9 +137,57 @@ impl Recorder {
     }
 }
 
-fn start(urls: &[String], path: &std::path::Path, options: RecordOptions) -> posewire::Result<Recorder> {
-    let open = |url: &String| Source::open(&url.parse()?, &PlaybackOptions::default());
-    let sources = urls.iter().map(open).collect::<posewire::Result<Vec<_>>>()?;
+/// A stream that can be recorded, as `posewire record` has it.
+fn live(url: &str) -> PyResult<Endpoint> {
+    match url.parse() {
+        Ok(Endpoint::File { path, .. }) => Err(usage(
+            format!(
+                "expected a live stream to record, as mxtp://0.0.0.0:9763, found {}",
+                path.display()
+            ),
+            "the file to write is path=; posewire.read gives what a take holds",
+        )),
+        endpoint => endpoint.map_err(|error| raised(&error)),
+    }
+}
+
+/// Refuses to write a recording under a name that says something else, as `posewire record` does.
+fn refuse(path: &Path) -> PyResult<()> {
+    let name = path.to_string_lossy().to_lowercase();
+    let takes = FileFormat::ALL.iter().map(|format| format.ending());
+    let captures = [Format::Pcap, Format::PcapNg].map(Format::ending);
+    let mut endings = captures.into_iter().chain(takes);
+    let Some(other) = endings.find(|ending| name.ends_with(&format!(".{ending}"))) else {
+        return Ok(());
+    };
+    let mcap = path.with_extension("mcap");
+    Err(usage(
+        format!("record writes MCAP files, {} says {other}", path.display()),
+        format!(
+            "path={:?}; what it holds can be converted afterwards",
+            mcap.display().to_string()
+        ),
+    ))
+}
+
+/// Bytes of a file at most.
+fn split(megabytes: i64) -> PyResult<u64> {
+    let bytes = u64::try_from(megabytes)
+        .ok()
+        .filter(|megabytes| (1..=1_000_000).contains(megabytes));
+    bytes.map(|megabytes| megabytes * 1_000_000).ok_or_else(|| {
+        usage(
+            format!("expected 1 to 1000000 as split_megabytes, found {megabytes}"),
+            "leave it out for one file",
+        )
+    })
+}
+
+fn start(endpoints: &[Endpoint], path: &Path, options: RecordOptions) -> posewire::Result<Recorder> {
+    let mut sources = Vec::new();
+    for endpoint in endpoints {
+        sources.extend(Source::open_all(endpoint, &PlaybackOptions::default())?);
+    }
     let endpoints: Vec<_> = sources.iter().map(|source| source.endpoint().clone()).collect();
     let stop = Stop::new();
     let sink = RecordSink::create(path, &endpoints, options, stop.clone())?;
