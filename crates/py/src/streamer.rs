@@ -1,6 +1,7 @@
 //! A program as a suit or a camera system.
 
 use crate::error::{exception, raised, usage};
+use crate::process::Opened;
 use crate::section::named;
 use crate::skeleton::Skeleton;
 use numpy::{AllowTypeChange, PyArrayLike1, PyArrayLike2};
@@ -67,7 +68,7 @@ pub(crate) fn streamer(
         rate,
         next: Mutex::new(vec![0; subjects.len()]),
         subjects,
-        running: Mutex::new(Some(Running { session, feed })),
+        running: Opened::new("the streamer", Mutex::new(Some(Running { session, feed }))),
     })
 }
 
@@ -137,7 +138,7 @@ pub(crate) struct Streamer {
     subjects: Vec<Arc<Subject>>,
     /// Per subject: the number of its next sample.
     next: Mutex<Vec<u32>>,
-    running: Mutex<Option<Running>>,
+    running: Opened<Mutex<Option<Running>>>,
 }
 
 struct Running {
@@ -146,10 +147,6 @@ struct Running {
 }
 
 impl Streamer {
-    fn lock(&self) -> MutexGuard<'_, Option<Running>> {
-        self.running.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
     /// The number of the next sample of a subject, after the one that is sent now.
     fn number(&self, subject: usize, sample: Option<u32>) -> u32 {
         let mut next = self.next.lock().unwrap_or_else(PoisonError::into_inner);
@@ -158,8 +155,8 @@ impl Streamer {
         sample
     }
 
-    fn push(&self, frame: Frame) -> Result<(), Ended> {
-        let mut running = self.lock();
+    fn push(running: &Mutex<Option<Running>>, frame: Frame) -> Result<(), Ended> {
+        let mut running = lock(running);
         let Some(Running { feed, .. }) = running.as_mut() else {
             return Err(Ended::Closed);
         };
@@ -173,6 +170,10 @@ impl Streamer {
         let failed = running.take().and_then(|running| finish(running).err());
         failed.map_or(Err(Ended::Closed), |error| Err(Ended::Failed(error)))
     }
+}
+
+fn lock(running: &Mutex<Option<Running>>) -> MutexGuard<'_, Option<Running>> {
+    running.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 enum Ended {
@@ -219,6 +220,7 @@ impl Streamer {
         time: Option<f64>,
         sections: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<()> {
+        let running = self.running.here()?;
         let Some(of) = self.subjects.get(subject) else {
             let message = format!("there are {} subjects, found number {subject}", self.subjects.len());
             return Err(usage(message, "they are counted from 0, in the order of names="));
@@ -238,7 +240,7 @@ impl Streamer {
                 "leave it out to go by the rate",
             )
         })?;
-        py.detach(|| self.push(frame)).map_err(|ended| match ended {
+        py.detach(|| Self::push(running, frame)).map_err(|ended| match ended {
             Ended::Closed => exception("ClosedError", "the streamer is closed".to_owned(), None),
             Ended::Failed(error) => raised(&error),
         })
@@ -246,8 +248,11 @@ impl Streamer {
 
     /// Sends what is on its way and ends it.
     fn close(&self, py: Python<'_>) -> PyResult<()> {
+        let Some(running) = self.running.if_here() else {
+            return Ok(());
+        };
         let finished = py.detach(|| {
-            let running = self.lock().take();
+            let running = lock(running).take();
             running.map_or(Ok(()), finish)
         });
         finished.map_err(|error| raised(&error))
