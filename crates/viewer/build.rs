@@ -23,7 +23,9 @@ fn main() {
     let page = if env::var_os("POSEWIRE_NO_WEB").is_some() {
         Err("POSEWIRE_NO_WEB is set".to_owned())
     } else {
-        build(&Path::new(env!("CARGO_MANIFEST_DIR")).join("web"), &out)
+        // Asked for when this runs: a target folder may outlive the clone that this was compiled in.
+        let here = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo says where the crate is"));
+        build(&here.join("web"), &out)
     };
     let list = match page {
         Ok(folder) => list(&folder).expect("what was just built can be read"),

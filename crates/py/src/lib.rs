@@ -28,6 +28,7 @@ mod decode;
 mod error;
 mod frame;
 mod listen;
+mod number;
 mod process;
 mod read;
 mod recorder;

@@ -1,7 +1,9 @@
 //! Segments and joints, by name.
 
 use crate::array;
+use crate::number::Whole;
 use posewire_motion::Subject;
+use posewire_motion::standard::MAX_PROPS;
 use pyo3::prelude::*;
 use std::sync::Arc;
 
@@ -14,13 +16,16 @@ pub(crate) struct Skeleton {
 
 #[pymethods]
 impl Skeleton {
-    /// MVN's skeleton: 23 body segments and 22 joints, then `props` props, then, with `fingers`, 20 segments of each hand.
+    /// MVN's skeleton: 23 body segments and 22 joints, then up to 4 `props`, then, with `fingers`, 20 segments of each hand.
+    ///
+    /// Raises UsageError for another number of props.
     #[staticmethod]
-    #[pyo3(signature = (props = 0, fingers = false))]
-    fn standard(props: u8, fingers: bool) -> Self {
-        let skeleton = posewire_motion::Skeleton::standard(props.into(), fingers);
+    #[pyo3(signature = (props = Whole::of(0), fingers = false), text_signature = "(props=0, fingers=False)")]
+    fn standard(props: Whole, fingers: bool) -> PyResult<Self> {
+        let props = props.within("props", 0..=MAX_PROPS)?;
+        let skeleton = posewire_motion::Skeleton::standard(props, fingers);
         let subject = Arc::new(Subject::new("", skeleton));
-        Self { subject }
+        Ok(Self { subject })
     }
 
     /// Names of the segments, in the order of the arrays.

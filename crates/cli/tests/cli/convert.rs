@@ -1,15 +1,12 @@
 //! `posewire convert`.
 
 use crate::program::{Ended, assert_documented, objects, posewire, reference};
+#[cfg(unix)]
+use crate::running::Running;
 use crate::takes::small_take;
 use serde_json::json;
 use std::fs;
 use std::path::Path;
-#[cfg(unix)]
-use std::{
-    io::{BufRead, BufReader, Read, Write},
-    process::{Child, Command, Stdio},
-};
 use tempfile::TempDir;
 
 pub(crate) fn folder(files: &[(&str, &[u8])]) -> TempDir {
@@ -30,14 +27,6 @@ pub(crate) fn convert(folder: &TempDir, arguments: &[&str]) -> Ended {
 
 pub(crate) fn text(folder: &TempDir, name: &str) -> String {
     fs::read_to_string(folder.path().join(name)).unwrap()
-}
-
-/// Does what Ctrl-C does.
-#[cfg(unix)]
-fn interrupt(child: &Child) {
-    let process = child.id().to_string();
-    let sent = Command::new("kill").args(["-INT", &process]).status();
-    assert!(sent.unwrap().success());
 }
 
 /// The names of what is in a folder.
@@ -275,15 +264,9 @@ fn the_walker_becomes_a_file_for_each_person() {
 fn a_live_stream_becomes_a_file_for_each_subject() {
     // One of them has a file of yesterday, which nobody could know of beforehand.
     let folder = folder(&[("live_Ada.mvnx", b"old")]);
-    let mut child = Command::new(env!("CARGO_BIN_EXE_posewire"))
-        .args(["convert", "mxtp://127.0.0.1:0", "live.mvnx", "--duration", "60"])
-        .current_dir(folder.path())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut said = BufReader::new(child.stderr.take().unwrap());
-    let mut line = String::new();
-    said.read_line(&mut line).unwrap();
+    let arguments = ["convert", "mxtp://127.0.0.1:0", "live.mvnx", "--duration", "60"];
+    let mut converting = Running::start(folder.path(), &arguments);
+    let line = converting.line();
     let endpoint = line.trim_end().strip_prefix("receiving from ").unwrap().to_owned();
     let walk = "synthetic:walk?people=2";
     let options = ["--rate", "60", "--duration", "0.5", "--types", "all"];
@@ -294,10 +277,9 @@ fn a_live_stream_becomes_a_file_for_each_subject() {
     );
     assert_eq!(sent.code, Some(0), "{}", sent.err);
     // What was sent is taken in before it ends.
-    interrupt(&child);
-    let mut rest = String::new();
-    said.read_to_string(&mut rest).unwrap();
-    assert_eq!(child.wait().unwrap().code(), Some(0), "{rest}");
+    converting.interrupt();
+    let Ended { code, err: rest, .. } = converting.end();
+    assert_eq!(code, Some(0), "{rest}");
     assert_eq!(text(&folder, "live_Ada.mvnx"), "old");
     fs::remove_file(folder.path().join("live_Ada.mvnx")).unwrap();
     let files = names(folder.path());
@@ -456,26 +438,21 @@ fn a_device_a_read_only_file_and_a_read_only_folder_are_left_alone() {
 #[cfg(unix)]
 #[test]
 fn ctrl_c_leaves_no_half_file() {
+    use std::io::Write;
     let folder = with_take(1);
     let fifo = folder.path().join("slow.mvnx");
     nix::unistd::mkfifo(&fifo, nix::sys::stat::Mode::S_IRWXU).unwrap();
-    let child = Command::new(env!("CARGO_BIN_EXE_posewire"))
-        .args(["convert", "slow.mvnx", "slow.bvh"])
-        .current_dir(folder.path())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
+    let converting = Running::start(folder.path(), &["convert", "slow.mvnx", "slow.bvh"]);
     // It opens when the program reads it, and then the program waits for what does not come.
     let mut slow = fs::File::options().write(true).open(&fifo).unwrap();
     let take = small_take(1);
     let (head, _) = take.split_once("</frames>").unwrap();
     slow.write_all(head.as_bytes()).unwrap();
-    interrupt(&child);
+    converting.interrupt();
     // What comes never ends, until nobody reads it.
     while slow.write_all(b"<!-- and so on -->\n").is_ok() {}
-    let output = child.wait_with_output().unwrap();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert!(said.contains("stopped while reading slow.mvnx"), "{said}");
-    assert_eq!(output.status.code(), Some(1));
+    let ended = converting.end();
+    assert!(ended.err.contains("stopped while reading slow.mvnx"), "{}", ended.err);
+    assert_eq!(ended.code, Some(1));
     assert_eq!(names(folder.path()), ["slow.mvnx", "take.mvnx"]);
 }

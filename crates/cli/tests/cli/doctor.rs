@@ -1,40 +1,29 @@
 //! `posewire doctor`.
 
 use crate::program::{Ended, assert_documented, objects, posewire};
+use crate::running::Running;
 use posewire::capture::PcapWriter;
 use posewire::{Datagram, Wire};
 use posewire_motion::Stamp;
 use posewire_mxtp::body::{Body, TimeCode};
 use posewire_mxtp::{Header, MessageType};
-use std::io::{BufRead, BufReader, Read};
 use std::net::UdpSocket;
 use std::path::Path;
-use std::process::{Command, Stdio};
 
 /// Examines a port of its own, to which `send` sends as soon as it listens.
 fn examine(arguments: &[&str], send: impl Fn(&UdpSocket, u16)) -> Ended {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_posewire"))
-        .args(["doctor", "mxtp://127.0.0.1:0", "--duration", "1"])
-        .args(arguments)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut err = BufReader::new(child.stderr.take().unwrap());
-    let mut line = String::new();
-    err.read_line(&mut line).unwrap();
+    let doctor = ["doctor", "mxtp://127.0.0.1:0", "--duration", "1"];
+    let mut running = Running::start(Path::new("."), &[&doctor, arguments].concat());
+    let line = running.line();
     let port = line.split([':', ' ']).find_map(|part| part.parse::<u16>().ok());
     send(
         &UdpSocket::bind("127.0.0.1:0").unwrap(),
         port.unwrap_or_else(|| panic!("{line}")),
     );
-    let mut out = String::new();
-    child.stdout.take().unwrap().read_to_string(&mut out).unwrap();
-    err.read_to_string(&mut line).unwrap();
+    let ended = running.end();
     Ended {
-        code: child.wait().unwrap().code(),
-        out,
-        err: line,
+        err: line + &ended.err,
+        ..ended
     }
 }
 

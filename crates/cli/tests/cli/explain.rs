@@ -65,14 +65,7 @@ quirks
   center-of-mass-short   a centre of mass of 12 bytes, no velocity or acceleration
 "#;
     let ended = explain(&["24_center_of_mass_short_rev_j.bin"], b"");
-    assert_eq!(
-        ended,
-        Ended {
-            code: Some(0),
-            out: expected.to_owned(),
-            err: String::new()
-        }
-    );
+    assert_eq!(ended, Ended::with(expected));
 }
 
 #[test]
@@ -246,14 +239,7 @@ offset  bytes             field         value
 ";
     let ticks = [5_000_u64, 7_000_000].map(u64::to_le_bytes).concat();
     let ended = explain(&["-"], &[b"\x0d\0\x10\0", &ticks[..]].concat());
-    assert_eq!(
-        ended,
-        Ended {
-            code: Some(0),
-            out: expected.to_owned(),
-            err: String::new()
-        }
-    );
+    assert_eq!(ended, Ended::with(expected));
 }
 
 #[test]

@@ -35,8 +35,8 @@ fn streamed(to: &str, plan: &str) -> serde_json::Value {
 fn what_the_sender_did_is_what_the_monitor_counts() {
     let monitor = Monitor::start(&["mxtp://127.0.0.1:0", "--json", "--duration", "60"]);
     let faults = streamed(&monitor.endpoint, PLAN);
-    monitor.interrupt();
-    let ended = monitor.end();
+    monitor.running.interrupt();
+    let ended = monitor.running.end();
     let pose = objects(&ended.out, "statistics");
     let pose = pose.iter().rfind(|object| object["type"] == "02").unwrap();
     assert_documented(pose, "statistics", &[]);

@@ -121,14 +121,7 @@ unknown elements
   mood                       4 times, first on line 19
 ";
     let ended = inspect(folder.path(), &["take.mvnx"]);
-    assert_eq!(
-        ended,
-        Ended {
-            code: Some(0),
-            out: expected.to_owned(),
-            err: String::new()
-        }
-    );
+    assert_eq!(ended, Ended::with(expected));
 }
 
 #[test]

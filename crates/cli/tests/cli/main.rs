@@ -20,6 +20,7 @@ mod recording_mishaps;
 mod refusals;
 mod remote;
 mod replay;
+mod running;
 mod stream;
 mod takes;
 mod view;

@@ -9,7 +9,7 @@ fn when_what_comes_is_not_mxtp_it_says_so() {
     let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
     let target = monitor.endpoint.strip_prefix("mxtp://").unwrap();
     socket.send_to(b"GET \x1b[2J", target).unwrap();
-    let ended = monitor.end();
+    let ended = monitor.running.end();
     let receiver = objects(&ended.out, "receiver").pop().unwrap();
     assert_eq!((ended.code, &receiver["malformed"]), (Some(0), &1.into()));
     assert!(ended.err.contains("1 datagram, none MXTP"), "{}", ended.err);
@@ -18,7 +18,8 @@ fn when_what_comes_is_not_mxtp_it_says_so() {
 
 #[test]
 fn when_nothing_comes_it_says_what_to_check() {
-    let ended = Monitor::start(&["mxtp://127.0.0.1:0", "--plain", "--duration", "3.5"]).end();
+    let monitor = Monitor::start(&["mxtp://127.0.0.1:0", "--plain", "--duration", "3.5"]);
+    let ended = monitor.running.end();
     assert_eq!(ended.code, Some(0));
     assert!(
         ended.err.contains("nothing has come to mxtp://127.0.0.1:"),
@@ -32,8 +33,8 @@ fn when_nothing_comes_it_says_what_to_check() {
 #[cfg(unix)]
 fn an_interrupt_ends_it_with_its_statistics() {
     let monitor = Monitor::start(&["mxtp+tcp://127.0.0.1:0", "--plain"]);
-    monitor.interrupt();
-    let ended = monitor.end();
+    monitor.running.interrupt();
+    let ended = monitor.running.end();
     assert_eq!(ended.code, Some(0), "{}", ended.err);
     assert!(ended.out.contains("0 datagrams"), "{}", ended.out);
 }

@@ -1,17 +1,18 @@
 //! `posewire monitor` of a NatNet server.
 
 use crate::motive::Motive;
-use crate::program::{assert_documented, objects, posewire};
+use crate::program::{Ended, assert_documented, objects, posewire};
+#[cfg(unix)]
+use crate::running::Running;
 use posewire_natnet::Version;
 use serde_json::Value;
 use std::path::Path;
-use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
 /// Runs the monitor with these arguments against a server that sends while it runs.
-fn monitored(version: Version, exposure: bool, arguments: &[&str]) -> crate::program::Ended {
+fn monitored(version: Version, exposure: bool, arguments: &[&str]) -> Ended {
     let mut motive = Motive::open(version);
     let endpoint = motive.endpoint();
     let ended = AtomicBool::new(false);
@@ -153,25 +154,15 @@ fn a_table_says_what_is_lost_and_why_a_latency_is_unknown() {
 #[test]
 fn a_monitor_that_was_suspended_reads_what_has_waited() {
     let mut motive = Motive::open(Version::new(4, 1));
-    let mut child = Command::new(env!("CARGO_BIN_EXE_posewire"));
-    child.args(["monitor", "--json", &motive.endpoint()]);
-    let child = child.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    let signal = |name: &str| {
-        let process = child.id().to_string();
-        assert!(Command::new("kill").args([name, &process]).status().unwrap().success());
-    };
+    let monitor = Running::start(Path::new("."), &["monitor", "--json", &motive.endpoint()]);
     motive.play(Duration::from_millis(1500));
-    signal("-STOP");
+    monitor.signal("-STOP");
     motive.play(Duration::from_millis(3500));
-    signal("-CONT");
+    monitor.signal("-CONT");
     motive.play(Duration::from_millis(1500));
-    signal("-INT");
-    let output = child.wait_with_output().unwrap();
-    let (out, err) = (
-        String::from_utf8(output.stdout).unwrap(),
-        String::from_utf8(output.stderr).unwrap(),
-    );
-    assert_eq!(output.status.code(), Some(0), "{err}");
+    monitor.interrupt();
+    let Ended { code, out, err } = monitor.end();
+    assert_eq!(code, Some(0), "{err}");
     assert!(!err.contains("lost"), "{err}");
     let statistics = objects(&out, "statistics");
     let frames = last(&statistics, &[("type", "frame".into()), ("ended", true.into())]);

@@ -1,9 +1,8 @@
-//! The program as a child process, and where its test data is.
+//! The program from its start to its end, and where its test data is.
 
-use std::io::{BufRead, BufReader, Read, Write};
+use crate::running::Running;
 use std::path::{Path, PathBuf};
-use std::process::{Child, ChildStderr, Command, Stdio};
-use std::thread::{self, JoinHandle};
+use std::process::Command;
 
 /// How the program ended and what it said.
 #[derive(Debug, PartialEq, Eq)]
@@ -13,133 +12,62 @@ pub(crate) struct Ended {
     pub(crate) err: String,
 }
 
+impl Ended {
+    /// It ended well, printed this and said nothing.
+    pub(crate) fn with(out: &str) -> Self {
+        Self {
+            code: Some(0),
+            out: out.to_owned(),
+            err: String::new(),
+        }
+    }
+}
+
 /// Runs the program in a folder with these arguments and this standard input.
 pub(crate) fn posewire(folder: &Path, arguments: &[&str], input: &[u8]) -> Ended {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_posewire"))
-        .args(arguments)
-        .current_dir(folder)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    // A program that has failed already reads no input.
-    let _ = child.stdin.take().unwrap().write_all(input);
-    let output = child.wait_with_output().unwrap();
-    Ended {
-        code: output.status.code(),
-        out: String::from_utf8(output.stdout).unwrap(),
-        err: String::from_utf8(output.stderr).unwrap(),
-    }
+    let program = env!("CARGO_BIN_EXE_posewire");
+    Running::run(folder, Command::new(program).args(arguments), input).end()
 }
 
 /// `posewire monitor`, listening.
 pub(crate) struct Monitor {
     pub(crate) endpoint: String,
-    child: Child,
-    out: JoinHandle<String>,
-    err: BufReader<ChildStderr>,
+    pub(crate) running: Running,
 }
 
 impl Monitor {
     /// Starts it with these arguments and waits until it listens.
     pub(crate) fn start(arguments: &[&str]) -> Self {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_posewire"))
-            .arg("monitor")
-            .args(arguments)
-            .stdin(Stdio::null())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let mut err = BufReader::new(child.stderr.take().unwrap());
-        let mut out = child.stdout.take().unwrap();
-        let out = thread::spawn(move || {
-            let mut text = String::new();
-            out.read_to_string(&mut text).unwrap();
-            text
-        });
-        let mut line = String::new();
-        err.read_line(&mut line).unwrap();
+        let mut running = Running::start(Path::new("."), &[&["monitor"], arguments].concat());
+        let line = running.line();
         let endpoint = line.strip_prefix("listening on ").unwrap_or_else(|| panic!("{line}"));
         Self {
             endpoint: endpoint.trim_end().to_owned(),
-            child,
-            out,
-            err,
-        }
-    }
-
-    /// Asks it to end, as Ctrl-C does.
-    #[cfg(unix)]
-    pub(crate) fn interrupt(&self) {
-        let process = self.child.id().to_string();
-        assert!(
-            Command::new("kill")
-                .args(["-INT", &process])
-                .status()
-                .unwrap()
-                .success()
-        );
-    }
-
-    /// Waits until it has ended.
-    pub(crate) fn end(mut self) -> Ended {
-        let mut err = String::new();
-        self.err.read_to_string(&mut err).unwrap();
-        Ended {
-            code: self.child.wait().unwrap().code(),
-            out: self.out.join().unwrap(),
-            err,
+            running,
         }
     }
 }
 
-/// `posewire stream`, passing on a live stream; it ends with the test.
+/// `posewire stream`, passing on a live stream.
 pub(crate) struct Relay {
     pub(crate) endpoint: String,
     /// The datagram types that it announces.
     pub(crate) types: String,
-    child: Child,
-    err: BufReader<ChildStderr>,
+    pub(crate) running: Running,
 }
 
 impl Relay {
     /// Starts it with these arguments and waits until it listens.
     pub(crate) fn start(arguments: &[&str]) -> Self {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_posewire"))
-            .arg("stream")
-            .args(arguments)
-            .stdin(Stdio::null())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let mut err = BufReader::new(child.stderr.take().unwrap());
-        let mut line = String::new();
-        err.read_line(&mut line).unwrap();
+        let mut running = Running::start(Path::new("."), &[&["stream"], arguments].concat());
+        let line = running.line();
         let endpoint = line.strip_prefix("streaming ").and_then(|rest| rest.split(',').next());
         let types = line.split_once(", types ").map_or("", |(_, types)| types.trim());
         Self {
             endpoint: endpoint.unwrap_or_else(|| panic!("{line}")).to_owned(),
             types: types.to_owned(),
-            child,
-            err,
+            running,
         }
-    }
-
-    /// What it says until a line has these words; all until its end when none has.
-    pub(crate) fn read_until(&mut self, words: &str) -> String {
-        let mut said = String::new();
-        while !said.contains(words) && self.err.read_line(&mut said).unwrap() > 0 {}
-        said
-    }
-}
-
-impl Drop for Relay {
-    fn drop(&mut self) {
-        // It may have ended by itself.
-        let _ = self.child.kill();
-        let _ = self.child.wait();
     }
 }
 

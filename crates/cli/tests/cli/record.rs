@@ -1,68 +1,36 @@
 //! `posewire record`, and `posewire inspect` of what it wrote.
 
-use crate::program::{Ended, assert_documented, assert_fits, objects, posewire};
+use crate::program::{assert_documented, assert_fits, objects, posewire};
+use crate::refusals::assert_refused;
+use crate::running::{Running, port};
 use posewire::recording::Survey;
 use std::fs;
-use std::io::{BufRead, BufReader, Read};
 use std::net::UdpSocket;
 use std::path::Path;
-use std::process::{Child, ChildStderr, Command, Stdio};
-use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
+#[cfg(unix)]
+use std::{process::Command, sync::mpsc};
 
 /// `posewire record`, recording.
 pub(crate) struct Recorder {
     pub(crate) port: u16,
-    pub(crate) child: Child,
-    err: BufReader<ChildStderr>,
+    pub(crate) running: Running,
 }
 
 impl Recorder {
-    /// Records whatever comes to a port of its own.
-    pub(crate) fn start(folder: &Path, arguments: &[&str]) -> Self {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_posewire"));
-        command.args(["record", "mxtp://127.0.0.1:0"]).args(arguments);
-        Self::run(folder, command)
+    /// Records whatever comes to a port of its own into a file.
+    pub(crate) fn start(folder: &Path, file: &str, options: &[&str]) -> Self {
+        let record = ["record", "mxtp://127.0.0.1:0", "-o", file];
+        Self::of(Running::start(folder, &[&record, options].concat()), file)
     }
 
-    pub(crate) fn run(folder: &Path, mut command: Command) -> Self {
-        let mut child = command
-            .current_dir(folder)
-            .stdin(Stdio::null())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let mut err = BufReader::new(child.stderr.take().unwrap());
-        let (mut line, mut into) = (String::new(), String::new());
-        err.read_line(&mut line).unwrap();
-        err.read_line(&mut into).unwrap();
-        let port = line.trim_end().rsplit_once(':').and_then(|(_, port)| port.parse().ok());
-        Self {
-            port: port.unwrap_or_else(|| panic!("{line}")),
-            child,
-            err,
-        }
+    /// Waits until it says where it listens and into which file it records.
+    fn of(mut running: Running, file: &str) -> Self {
+        let port = port(&running.line());
+        assert_eq!(running.line(), format!("  into {file}\n"));
+        Self { port, running }
     }
-
-    pub(crate) fn end(mut self) -> Ended {
-        let (mut err, mut out) = (String::new(), String::new());
-        self.child.stdout.take().unwrap().read_to_string(&mut out).unwrap();
-        self.err.read_to_string(&mut err).unwrap();
-        Ended {
-            code: self.child.wait().unwrap().code(),
-            out,
-            err,
-        }
-    }
-}
-
-#[cfg(unix)]
-pub(crate) fn interrupt(child: &Child) {
-    let process = child.id().to_string();
-    let sent = Command::new("kill").args(["-INT", &process]).status();
-    assert!(sent.unwrap().success());
 }
 
 /// Sends numbers until something is true; gives when each was sent.
@@ -87,11 +55,11 @@ pub(crate) fn send_until(port: u16, length: usize, mut enough: impl FnMut(usize)
 #[test]
 fn ctrl_c_finishes_a_recording_and_json_tells_of_it() {
     let folder = tempfile::tempdir().unwrap();
-    let recorder = Recorder::start(folder.path(), &["-o", "take.mcap", "--json"]);
+    let recorder = Recorder::start(folder.path(), "take.mcap", &["--json"]);
     let begun = Instant::now();
     send_until(recorder.port, 100, |_| begun.elapsed() > Duration::from_millis(1300));
-    interrupt(&recorder.child);
-    let ended = recorder.end();
+    recorder.running.interrupt();
+    let ended = recorder.running.end();
     assert_eq!(ended.code, Some(0), "{}", ended.err);
     let told = objects(&ended.out, "recording");
     assert!(told.len() >= 2, "{}", ended.out);
@@ -127,12 +95,11 @@ fn a_recorder_that_is_killed_loses_no_more_than_a_quarter_of_a_second() {
 /// How much before it is killed the first datagram was sent that a recorder loses.
 fn lost_when_killed(folder: &Path, name: &str, life: Duration) -> Duration {
     let (cut, whole) = (format!("cut-{name}.mcap"), format!("whole-{name}.mcap"));
-    let mut recorder = Recorder::start(folder, &["-o", &cut]);
+    let recorder = Recorder::start(folder, &cut, &[]);
     let begun = Instant::now();
     let sent = send_until(recorder.port, 1200, |_| begun.elapsed() >= life);
     let killed = Instant::now();
-    recorder.child.kill().unwrap();
-    recorder.child.wait().unwrap();
+    recorder.running.kill();
 
     let recovering = ["inspect", &cut, "--recover", "-o", &whole, "--json"];
     let seen = posewire(folder, &recovering, b"");
@@ -158,17 +125,16 @@ const A_QUARTER: Duration = Duration::from_millis(250);
 #[test]
 fn a_full_disk_ends_the_recording_loudly_and_what_was_written_stays() {
     let folder = tempfile::tempdir().unwrap();
-    let mut command = Command::new("sh");
     let program = env!("CARGO_BIN_EXE_posewire");
     let limited = format!("trap '' XFSZ; ulimit -f 2000; exec '{program}' record mxtp://127.0.0.1:0 -o take.mcap");
-    command.args(["-c", &limited]);
-    let mut recorder = Recorder::run(folder.path(), command);
+    let running = Running::run(folder.path(), Command::new("sh").args(["-c", &limited]), b"");
+    let mut recorder = Recorder::of(running, "take.mcap");
     let begun = Instant::now();
     send_until(recorder.port, 1200, |_| {
         assert!(begun.elapsed() < Duration::from_mins(1), "it goes on recording");
-        recorder.child.try_wait().unwrap().is_some()
+        recorder.running.has_ended()
     });
-    let ended = recorder.end();
+    let ended = recorder.running.end();
     assert_eq!(ended.code, Some(3), "{}", ended.err);
     assert!(ended.err.contains("could not be written"), "{}", ended.err);
     assert!(ended.err.contains("error: cannot write to take.mcap"), "{}", ended.err);
@@ -199,22 +165,18 @@ fn a_slow_disk_makes_the_recorder_drop_loudly_and_what_was_written_is_whole() {
             std::io::copy(&mut from, &mut fs::File::create(path).unwrap()).unwrap()
         }
     });
-    let recorder = Recorder::start(folder.path(), &["-o", "pipe", "--overwrite"]);
-    let (said, heard) = mpsc::channel();
-    let (port, lines) = (recorder.port, recorder.err.lines());
-    let telling = thread::spawn(move || lines.map_while(Result::ok).for_each(|line| _ = said.send(line)));
+    let mut recorder = Recorder::start(folder.path(), "pipe", &["--overwrite"]);
     let begun = Instant::now();
-    send_until(port, 60_000, |_| {
+    send_until(recorder.port, 60_000, |_| {
         assert!(begun.elapsed() < Duration::from_mins(1), "it has not shouted");
-        heard.try_iter().any(|line| line.contains("found no room in the queue"))
+        recorder.running.has_said("found no room in the queue")
     });
-    let mut child = recorder.child;
-    interrupt(&child);
+    recorder.running.interrupt();
     drop(go_on);
-    assert_eq!(child.wait().unwrap().code(), Some(3));
-    telling.join().unwrap();
+    let ended = recorder.running.end();
+    assert_eq!(ended.code, Some(3));
     assert!(
-        heard.iter().any(|line| line.starts_with("LOST")),
+        ended.err.lines().any(|line| line.starts_with("LOST")),
         "not said in the summary"
     );
     disk.join().unwrap();
@@ -265,13 +227,7 @@ fn what_cannot_be_recorded_is_refused() {
             "give a file that posewire record has written",
         ),
     ] {
-        let ended = posewire(folder.path(), arguments, b"");
-        assert_eq!(ended.code, Some(code), "{arguments:?}: {}", ended.err);
-        assert!(
-            ended.err.contains(error) && ended.err.contains(help),
-            "{arguments:?}: {}",
-            ended.err
-        );
+        assert_refused(folder.path(), arguments, code, error, help);
     }
     assert_eq!(fs::read(folder.path().join("there.mcap")).unwrap(), b"precious");
 }

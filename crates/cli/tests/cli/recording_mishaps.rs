@@ -1,7 +1,7 @@
 //! What can happen to a recording: its file is gone, taken or cut off, and nobody sends, or two send at once.
 
 use crate::program::{objects, posewire};
-use crate::record::{Recorder, interrupt, send_until};
+use crate::record::{Recorder, send_until};
 use posewire::recording::Survey;
 use std::fs;
 use std::net::UdpSocket;
@@ -30,7 +30,7 @@ fn datagrams(path: &Path) -> u64 {
 fn a_file_that_is_being_recorded_is_left_alone() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("take.mcap");
-    let recorder = Recorder::start(folder.path(), &["-o", "take.mcap"]);
+    let recorder = Recorder::start(folder.path(), "take.mcap", &[]);
     send(recorder.port);
     wait_for(|| datagrams(&path) == 200);
 
@@ -65,8 +65,8 @@ fn a_file_that_is_being_recorded_is_left_alone() {
     assert_eq!(copied.code, Some(0), "{}", copied.err);
 
     send(recorder.port);
-    interrupt(&recorder.child);
-    assert_eq!(recorder.end().code, Some(0));
+    recorder.running.interrupt();
+    assert_eq!(recorder.running.end().code, Some(0));
     assert_eq!(datagrams(&path), 400);
 }
 
@@ -74,11 +74,11 @@ fn a_file_that_is_being_recorded_is_left_alone() {
 fn a_file_that_is_removed_while_it_is_recorded_is_shouted_about() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("take.mcap");
-    let recorder = Recorder::start(folder.path(), &["-o", "take.mcap", "--json"]);
+    let recorder = Recorder::start(folder.path(), "take.mcap", &["--json"]);
     send(recorder.port);
     wait_for(|| datagrams(&path) == 200);
     fs::remove_file(&path).unwrap();
-    let ended = recorder.end();
+    let ended = recorder.running.end();
     assert_eq!(ended.code, Some(3), "{}", ended.err);
     assert!(
         ended
@@ -95,13 +95,13 @@ fn a_file_that_is_removed_while_it_is_recorded_is_shouted_about() {
 fn a_file_that_is_moved_while_it_is_recorded_has_everything_in_it() {
     let folder = tempfile::tempdir().unwrap();
     let (path, moved) = (folder.path().join("take.mcap"), folder.path().join("moved.mcap"));
-    let recorder = Recorder::start(folder.path(), &["-o", "take.mcap"]);
+    let recorder = Recorder::start(folder.path(), "take.mcap", &[]);
     send(recorder.port);
     wait_for(|| datagrams(&path) == 200);
     fs::rename(&path, &moved).unwrap();
     send(recorder.port);
-    interrupt(&recorder.child);
-    let ended = recorder.end();
+    recorder.running.interrupt();
+    let ended = recorder.running.end();
     assert_eq!(ended.code, Some(3), "{}", ended.err);
     assert!(
         ended.err.contains("take.mcap was MOVED while it was recorded"),
@@ -126,7 +126,7 @@ fn who_sends_nothing_and_who_sends_the_same_is_named() {
         silent.err
     );
 
-    let recorder = Recorder::start(folder.path(), &["-o", "two.mcap", "--json"]);
+    let recorder = Recorder::start(folder.path(), "two.mcap", &["--json"]);
     let senders = [(); 2].map(|()| UdpSocket::bind("127.0.0.1:0").unwrap());
     let mut datagram = b"MXTP02\0\0\0\x01\x80\x17\0\0\0\0\x05\x17\0\0\0\0\0\0".to_vec();
     for sample in 0..6 {
@@ -135,8 +135,8 @@ fn who_sends_nothing_and_who_sends_the_same_is_named() {
         sender.send_to(&datagram, ("127.0.0.1", recorder.port)).unwrap();
     }
     wait_for(|| datagrams(&folder.path().join("two.mcap")) == 6);
-    interrupt(&recorder.child);
-    let ended = recorder.end();
+    recorder.running.interrupt();
+    let ended = recorder.running.end();
     let last = objects(&ended.out, "recording").pop().unwrap();
     let said = last["sources"][0]["two_senders"][0].as_str().unwrap();
     assert!(said.ends_with(" send character 5 at the same time."), "{said}");
@@ -146,10 +146,9 @@ fn who_sends_nothing_and_who_sends_the_same_is_named() {
 fn each_file_of_a_split_recording_that_was_killed_is_completed() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
-    let mut recorder = Recorder::start(folder.path(), &["-o", "take.mcap", "--split-size", "1"]);
+    let recorder = Recorder::start(folder.path(), "take.mcap", &["--split-size", "1"]);
     send_until(recorder.port, 10_000, |_| datagrams(&at("take-003.mcap")) > 0);
-    recorder.child.kill().unwrap();
-    recorder.child.wait().unwrap();
+    recorder.running.kill();
 
     let seen = posewire(folder.path(), &["inspect", "take.mcap"], b"");
     assert!(seen.out.contains("goes on in   take-002.mcap"), "{}", seen.out);
@@ -179,13 +178,13 @@ fn each_file_of_a_split_recording_that_was_killed_is_completed() {
 fn a_recording_is_not_recorded_onto_itself_and_damage_in_it_is_told() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("take.mcap");
-    let recorder = Recorder::start(folder.path(), &["-o", "take.mcap"]);
+    let recorder = Recorder::start(folder.path(), "take.mcap", &[]);
     send(recorder.port);
     wait_for(|| datagrams(&path) == 200);
     let length = fs::metadata(&path).unwrap().len();
     send(recorder.port);
-    interrupt(&recorder.child);
-    assert_eq!(recorder.end().code, Some(0));
+    recorder.running.interrupt();
+    assert_eq!(recorder.running.end().code, Some(0));
 
     let before = fs::read(&path).unwrap();
     let again = posewire(

@@ -6,7 +6,8 @@ use std::fs;
 use std::net::{TcpListener, UdpSocket};
 use std::path::Path;
 
-fn assert_refused(folder: &Path, arguments: &[&str], code: i32, error: &str, help: &str) {
+/// Asserts that it failed with this code, printed nothing, and said these words in its one error and its one help.
+pub(crate) fn assert_refused(folder: &Path, arguments: &[&str], code: i32, error: &str, help: &str) {
     let ended = posewire(folder, arguments, b"");
     assert_eq!(ended.code, Some(code), "{arguments:?}: {}", ended.err);
     assert_eq!(ended.out, "", "{arguments:?}");

@@ -1,54 +1,36 @@
 //! `posewire stream` and `posewire record` that other programs control.
 
-use crate::program::{Ended, assert_documented, objects, posewire};
+use crate::program::{assert_documented, objects, posewire};
+use crate::running::{Running, port};
 use crate::takes::small_take;
 use std::fs;
-use std::io::{BufRead, BufReader, Read};
 use std::net::UdpSocket;
 use std::path::Path;
-use std::process::{Child, ChildStderr, Command, Stdio};
+use std::process::Command;
 use std::time::Duration;
 
 /// The program, controlled over a port of its own.
 struct Controlled {
-    /// What it said before it said where it is controlled.
+    /// What it said until it said where it is controlled.
     announced: String,
     port: u16,
-    child: Child,
-    err: BufReader<ChildStderr>,
+    running: Running,
 }
 
 impl Controlled {
     fn start(folder: &Path, arguments: &[&str]) -> Self {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_posewire"))
-            .args(arguments)
-            .args(["--remote", "0"])
-            .current_dir(folder)
-            .stdin(Stdio::null())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let mut err = BufReader::new(child.stderr.take().unwrap());
-        let (mut announced, mut line) = (String::new(), String::new());
-        while !line.starts_with("remote control on udp 127.0.0.1:") {
-            announced += &line;
-            line.clear();
-            assert!(err.read_line(&mut line).unwrap() > 0, "{announced}");
-        }
-        let port = line.trim_end().rsplit(':').next().unwrap().parse().unwrap();
+        let mut running = Running::start(folder, &[arguments, &["--remote", "0"]].concat());
+        let announced = running.read_until(|line| line.starts_with("remote control on udp 127.0.0.1:"));
         Self {
+            port: port(&announced),
             announced,
-            port,
-            child,
-            err,
+            running,
         }
     }
 
     /// The port that the first line of the announcement ends in.
     fn source(&self) -> u16 {
-        let line = self.announced.lines().next().unwrap();
-        line.rsplit(':').next().unwrap().parse().unwrap()
+        port(self.announced.lines().next().unwrap())
     }
 
     fn ask(&self, message: &str) -> String {
@@ -58,36 +40,6 @@ impl Controlled {
         let mut buffer = [0; 8192];
         let length = socket.recv(&mut buffer).unwrap();
         String::from_utf8(buffer[..length].to_vec()).unwrap()
-    }
-
-    /// What it says until a line has these words.
-    fn read_until(&mut self, words: &str) -> String {
-        let mut said = String::new();
-        while !said.contains(words) && self.err.read_line(&mut said).unwrap() > 0 {}
-        said
-    }
-
-    #[cfg(unix)]
-    fn interrupt(mut self) -> Ended {
-        let process = self.child.id().to_string();
-        let sent = Command::new("kill").args(["-INT", &process]).status();
-        assert!(sent.unwrap().success());
-        let (mut err, mut out) = (String::new(), String::new());
-        self.child.stdout.take().unwrap().read_to_string(&mut out).unwrap();
-        self.err.read_to_string(&mut err).unwrap();
-        Ended {
-            code: self.child.wait().unwrap().code(),
-            out,
-            err,
-        }
-    }
-}
-
-impl Drop for Controlled {
-    fn drop(&mut self) {
-        // It may have ended by itself.
-        let _ = self.child.kill();
-        let _ = self.child.wait();
     }
 }
 
@@ -115,7 +67,7 @@ fn the_client_of_the_documentation_controls_a_stream() {
     };
     let said = String::from_utf8(client.stdout).unwrap().replace("\r\n", "\n");
     assert_eq!(said, block("xml"), "{}", String::from_utf8_lossy(&client.stderr));
-    let told = stream.read_until("goes to sample 240");
+    let told = stream.running.read_until(|line| line.contains("goes to sample 240"));
     assert!(told.contains(": paused\n"), "{told}");
 }
 
@@ -138,7 +90,8 @@ fn a_stream_that_is_controlled_goes_on_until_it_is_stopped_and_tells_of_every_ta
     assert!(stream.ask("<NavigateToStartReq/>").contains("TRUE"));
     guest.recv(&mut [0; 8192]).unwrap();
     assert!(stream.ask(&change("Remove")).contains("TRUE"));
-    let ended = stream.interrupt();
+    stream.running.interrupt();
+    let ended = stream.running.end();
     assert_eq!(ended.code, Some(0), "{}", ended.err);
     let end = objects(&ended.out, "stream").remove(0);
     let targets = end["targets"].as_array().unwrap();
@@ -164,7 +117,8 @@ fn takes_are_recorded_by_command_and_ctrl_c_ends_the_last() {
     let refused = recorder.ask("<StartRecordingReq SessionName=\"..\\walk\"/>");
     assert!(refused.contains("FALSE"), "{refused}");
     assert!(recorder.ask("<CaptureStart/>").contains("TRUE"));
-    let ended = recorder.interrupt();
+    recorder.running.interrupt();
+    let ended = recorder.running.end();
     assert_eq!(ended.code, Some(0), "{}", ended.err);
     assert!(ended.err.ends_with("3 takes in all\n"), "{}", ended.err);
     let told = objects(&ended.out, "recording");

@@ -35,7 +35,7 @@ fn a_walker_is_streamed_and_monitored_with_all_that_it_has() {
     assert_documented(summary, "stream", &[]);
     assert_eq!(summary["targets"][0]["peers"], 1);
 
-    let ended = monitor.end();
+    let ended = monitor.running.end();
     assert_eq!(ended.code, Some(0), "{}", ended.err);
     let frames = objects(&ended.out, "frame");
     assert_eq!(frames.len(), 30);
@@ -88,8 +88,8 @@ fn a_live_stream_is_passed_on_and_peers_are_told_of() {
     ];
     assert_eq!(posewire(here(), &arguments, b"").code, Some(0));
     let monitored = monitor.endpoint.clone();
-    assert_eq!(objects(&monitor.end().out, "frame").len(), 12);
-    let said = relay.read_until("0 peers connected");
+    assert_eq!(objects(&monitor.running.end().out, "frame").len(), 12);
+    let said = relay.running.read_until(|line| line.contains("0 peers connected"));
     let told = format!("{monitored}: 0 peers connected");
     assert!(said.contains(&told), "{said}");
 }
@@ -117,7 +117,7 @@ fn a_take_is_given_a_number_and_a_name() {
         streamed.err
     );
 
-    let frames = objects(&monitor.end().out, "frame");
+    let frames = objects(&monitor.running.end().out, "frame");
     assert_eq!(frames.len(), 12);
     assert_eq!(
         (&frames[11]["character"], &frames[11]["name"]),
@@ -143,7 +143,7 @@ fn a_loop_counts_on() {
         &monitor.endpoint,
     ];
     assert_eq!(posewire(folder.path(), &arguments, b"").code, Some(0));
-    let frames = objects(&monitor.end().out, "frame");
+    let frames = objects(&monitor.running.end().out, "frame");
     assert!(
         frames
             .iter()
@@ -179,7 +179,7 @@ fn what_a_take_lacks_is_refused_by_number_and_left_out_of_all() {
     );
     assert_eq!(all.code, Some(0), "{}", all.err);
     assert!(all.err.contains("leaving out type 23"), "{}", all.err);
-    monitor.end();
+    monitor.running.end();
 }
 
 #[test]
@@ -200,8 +200,8 @@ fn a_damaged_take_is_used_up_to_the_damage_when_asked() {
     assert_eq!(salvaged.code, Some(3), "{}", salvaged.err);
     assert!(salvaged.err.contains("the file is damaged"), "{}", salvaged.err);
     assert_eq!(objects(&salvaged.out, "stream")[0]["frames"], 11);
-    monitor.interrupt();
-    monitor.end();
+    monitor.running.interrupt();
+    monitor.running.end();
 }
 
 #[test]

@@ -2,44 +2,33 @@
 #![cfg(feature = "viewer")]
 
 use crate::program::posewire;
+use crate::record::Recorder;
+use crate::refusals::assert_refused;
+use crate::running::Running;
 use crate::takes::small_take;
 use std::fs;
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::path::Path;
-use std::process::{Child, ChildStderr, Command, Stdio};
 
-/// The program, serving its page; it ends with the test.
+/// The program, serving its page.
 struct Viewed {
     /// Where, as `127.0.0.1:9780`.
     address: String,
-    child: Child,
-    _err: BufReader<ChildStderr>,
+    #[cfg_attr(not(unix), expect(dead_code, reason = "it is there to end with the test"))]
+    running: Running,
 }
 
 impl Viewed {
     /// Starts it with these arguments and waits until it says where the page is.
     fn start(folder: &Path, arguments: &[&str]) -> Self {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_posewire"))
-            .args(arguments)
-            .current_dir(folder)
-            .stdin(Stdio::null())
-            .stdout(Stdio::null())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let mut err = BufReader::new(child.stderr.take().unwrap());
-        let (mut said, mut line) = (String::new(), String::new());
-        while !line.starts_with("open http://") {
-            said += &line;
-            line.clear();
-            assert!(err.read_line(&mut line).unwrap() > 0, "{said}");
-        }
-        let address = line.trim_start_matches("open http://").trim_end().trim_end_matches('/');
+        let mut running = Running::start(folder, arguments);
+        let said = running.read_until(|line| line.starts_with("open http://"));
+        let line = said.lines().last().unwrap_or_default();
+        let address = line.trim_start_matches("open http://").trim_end_matches('/');
         Self {
             address: address.to_owned(),
-            child,
-            _err: err,
+            running,
         }
     }
 
@@ -69,14 +58,6 @@ impl Viewed {
     }
 }
 
-impl Drop for Viewed {
-    fn drop(&mut self) {
-        // It may have ended by itself.
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
-}
-
 #[test]
 fn what_is_live_is_shown_live() {
     let viewed = Viewed::start(
@@ -98,16 +79,9 @@ fn what_is_live_is_shown_live() {
 #[cfg(unix)]
 #[test]
 fn ctrl_c_ends_it_well() {
-    let mut viewed = Viewed::start(Path::new("."), &["view", "synthetic:walk", "--listen", "127.0.0.1:0"]);
-    let process = viewed.child.id().to_string();
-    assert!(
-        Command::new("kill")
-            .args(["-INT", &process])
-            .status()
-            .unwrap()
-            .success()
-    );
-    assert_eq!(viewed.child.wait().unwrap().code(), Some(0));
+    let viewed = Viewed::start(Path::new("."), &["view", "synthetic:walk", "--listen", "127.0.0.1:0"]);
+    viewed.running.interrupt();
+    assert_eq!(viewed.running.end().code, Some(0));
 }
 
 #[test]
@@ -135,33 +109,12 @@ fn files_are_takes_that_the_page_plays() {
 #[test]
 fn a_recording_has_a_take_for_each_performer() {
     let folder = tempfile::tempdir().unwrap();
-    let listening = std::net::UdpSocket::bind("127.0.0.1:0").unwrap();
-    let url = format!("mxtp://{}", listening.local_addr().unwrap());
-    drop(listening);
-    let mut recorder = Command::new(env!("CARGO_BIN_EXE_posewire"))
-        .args(["record", &url, "-o", "two.mcap"])
-        .current_dir(folder.path())
-        .stdin(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut err = BufReader::new(recorder.stderr.take().unwrap());
-    let mut line = String::new();
-    while !line.contains("two.mcap") {
-        assert!(err.read_line(&mut line).unwrap() > 0, "{line}");
-    }
+    let recorder = Recorder::start(folder.path(), "two.mcap", &[]);
+    let url = format!("mxtp://127.0.0.1:{}", recorder.port);
     let stream = ["stream", "synthetic:walk?people=2", "--to", &url, "--duration", "0.5"];
     assert_eq!(posewire(folder.path(), &stream, b"").code, Some(0));
-    let process = recorder.id().to_string();
-    assert!(
-        Command::new("kill")
-            .args(["-INT", &process])
-            .status()
-            .unwrap()
-            .success()
-    );
-    std::io::copy(&mut err, &mut std::io::sink()).unwrap();
-    assert_eq!(recorder.wait().unwrap().code(), Some(0));
+    recorder.running.interrupt();
+    assert_eq!(recorder.running.end().code, Some(0));
 
     let viewed = Viewed::start(folder.path(), &["view", "two.mcap", "--listen", "127.0.0.1:0"]);
     let scene = viewed.scene();
@@ -246,12 +199,6 @@ fn what_cannot_be_shown_is_refused_with_help() {
             "as in --view=127.0.0.1:",
         ),
     ] {
-        let ended = posewire(folder.path(), arguments, b"");
-        assert_eq!(ended.code, Some(code), "{arguments:?}: {}", ended.err);
-        assert!(
-            ended.err.contains(error) && ended.err.contains(help),
-            "{arguments:?}: {}",
-            ended.err
-        );
+        assert_refused(folder.path(), arguments, code, error, help);
     }
 }

@@ -14,8 +14,10 @@ test('performers are where the stream says, and move', async (context) => {
 
   const seen = [];
   for (let look = 0; look < 8; look++) {
-    seen.push(...(await tab.evaluate(drawn)));
-    await tab.waitForTimeout(120);
+    const samples = seen.slice(-3).map(({ sample }) => sample);
+    const looked = () => tab.evaluate(drawn);
+    const isNew = (now) => now.every(({ sample }) => !samples.includes(sample)) && now;
+    seen.push(...(await until(async () => isNew(await looked()), 'a pose that was not drawn before')));
   }
   const key = (name, sample) => `${name} ${sample}`;
   const last = Math.max(...seen.map(({ sample }) => sample));

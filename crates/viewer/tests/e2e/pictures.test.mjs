@@ -4,7 +4,7 @@ import { mkdtempSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { test } from 'node:test';
-import { assertQuiet, browser, open, smallPicture, waitForStates } from './lib/page.mjs';
+import { assertQuiet, atRest, browser, open, smallPicture, waitForStates } from './lib/page.mjs';
 import { start, until, view } from './lib/program.mjs';
 import { walkerTake } from './lib/take.mjs';
 
@@ -17,7 +17,7 @@ test('pictures are taken of performers, of a take and of a phone', { timeout: 18
   );
   const live = await open(opened, `${server.url}#${plots.join('&')}`);
   await until(() => live.evaluate(() => window.posewire.traces.all.length === 3), 'the channels');
-  await live.waitForTimeout(11_000);
+  await until(() => live.evaluate(plottedSeconds).then((seconds) => seconds > 9), 'a plot that is full');
   await still(live, () => smallPicture(live, 'viewer'));
   assertQuiet(live);
   await live.close();
@@ -28,9 +28,10 @@ test('pictures are taken of performers, of a take and of a phone', { timeout: 18
     hasTouch: true,
     isMobile: true,
   });
-  await phone.waitForTimeout(3000);
-  await phone.getByRole('button', { name: '4 performers' }).tap();
-  await still(phone, () => smallPicture(phone, 'viewer-phone'));
+  await still(phone, async () => {
+    await phone.getByRole('button', { name: '4 performers' }).tap();
+    await smallPicture(phone, 'viewer-phone');
+  });
   await phone.close();
 
   const take = await walkerTake(context, mkdtempSync(path.join(tmpdir(), 'posewire-')), 'walk.mvnx', 20, [
@@ -42,7 +43,7 @@ test('pictures are taken of performers, of a take and of a phone', { timeout: 18
   await until(() => tab.evaluate(() => window.posewire.player.shownFrame() === 481), 'frame 481');
   for (let step = 0; step < 30; step++) await tab.keyboard.press('ArrowRight');
   await tab.keyboard.press('0');
-  await tab.waitForTimeout(2500);
+  await atRest(tab);
   await smallPicture(tab, 'viewer-take');
   assertQuiet(tab);
 });
@@ -54,6 +55,12 @@ async function still(tab, take) {
     const { room, stage, traces } = window.posewire;
     room.take = stage.update = traces.take = () => undefined;
   });
-  await tab.waitForTimeout(3000);
+  await atRest(tab);
   await take();
+}
+
+/** For how long the first trace has been plotted. */
+function plottedSeconds() {
+  const { time } = window.posewire.traces.all[0].column();
+  return time.length > 0 ? time.at(-1) - time[0] : 0;
 }

@@ -45,7 +45,8 @@ test('a joint angle of a live stream is plotted sample for sample, and stands st
   const shown = () => tab.evaluate((key) => window.posewire.plots.shownValues()[key], KNEE);
   const paused = await shown();
   assert.match(paused, /^-?\d+\.\d+°$/);
-  await tab.waitForTimeout(400);
+  const samples = (await values()).length;
+  await until(async () => (await values()).length > samples + 24, 'more samples than are shown');
   assert.equal(await shown(), paused);
   await tab.locator('.u-over').hover({ position: { x: 300, y: 30 } });
   await until(async () => (await shown()) !== paused, 'the value under the pointer');

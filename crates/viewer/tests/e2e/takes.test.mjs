@@ -5,7 +5,7 @@ import { mkdtempSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { before, test } from 'node:test';
-import { assertQuiet, browser, open, picture } from './lib/page.mjs';
+import { assertQuiet, atRest, browser, open, picture } from './lib/page.mjs';
 import { until, view } from './lib/program.mjs';
 import { walkerTake } from './lib/take.mjs';
 
@@ -69,8 +69,7 @@ test('a file is scrubbed and stepped to exact frames', async (context) => {
   await until(async () => Math.abs((await shown(tab)).frame - wanted) <= 1, `frame ${wanted} or a neighbour`);
   await tab.getByRole('button', { name: '30 samples missing' }).click();
   await assertFrame(tab, 119);
-  // The camera needs a moment to have the performer in the picture again.
-  await tab.waitForTimeout(2500);
+  await atRest(tab);
   await picture(tab, 'take');
   assertQuiet(tab);
 });

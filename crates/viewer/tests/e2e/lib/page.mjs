@@ -82,6 +82,20 @@ export async function beside(tab, work, data) {
   return result;
 }
 
+/** Waits until the camera has come to rest: it has the performers in the picture. */
+export async function atRest(tab) {
+  await tab.evaluate(async (pictures) => {
+    const round = (_, value) => (typeof value === 'number' ? value.toFixed(3) : value);
+    const seen = () => JSON.stringify(window.posewire.stage.view(), round);
+    for (let [before, still] = [seen(), 0]; still < pictures; ) {
+      await new Promise(requestAnimationFrame);
+      const now = seen();
+      still = now === before ? still + 1 : 0;
+      before = now;
+    }
+  }, 20);
+}
+
 /** Waits until the performers' states are these, in their order. */
 export async function waitForStates(tab, expected) {
   const shown = () => tab.locator('.performer .state').allTextContents();
