@@ -1,13 +1,11 @@
 //! The JSON that verbs print: one object a line. The field names are an interface, described in docs/json.md. Statistics
-//! have theirs from [`posewire::json`].
+//! and streams have theirs from [`posewire::json`].
 
 mod capture;
 mod doctor;
-mod faults;
 mod frame;
 mod recording;
 mod replay;
-mod stream;
 mod subject;
 
 pub(crate) use capture::CaptureFileRecord;
@@ -15,7 +13,6 @@ pub(crate) use doctor::{DoctorRecord, FindingRecord};
 pub(crate) use frame::{FrameRecord, marker_name};
 pub(crate) use recording::{RecordingFileRecord, RecordingRecord};
 pub(crate) use replay::ReplayRecord;
-pub(crate) use stream::StreamRecord;
 pub(crate) use subject::SubjectRecord;
 
 use posewire::Error;

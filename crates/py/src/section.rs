@@ -63,42 +63,77 @@ pub(crate) fn of_frame(frame: &Frame) -> impl Iterator<Item = Section> {
 /// The numbers of a section of a frame, those of an entry side by side, NaN where it is not tracked; `None` where the frame
 /// lacks the section.
 pub(crate) fn values(frame: &Frame, section: Section) -> Option<Vec<f64>> {
-    let whole = frame.center_of_mass.as_ref();
-    match section {
-        Section::Position => vectors(&frame.position),
-        Section::Orientation => quaternions(&frame.orientation),
-        Section::Velocity => vectors(&frame.velocity),
-        Section::Acceleration => vectors(&frame.acceleration),
-        Section::AngularVelocity => vectors(&frame.angular_velocity),
-        Section::AngularAcceleration => vectors(&frame.angular_acceleration),
-        Section::JointAngles => vectors(&frame.joint_angles),
-        Section::JointAnglesXzy => vectors(&frame.joint_angles_xzy),
-        Section::ErgonomicAngles => vectors(&frame.ergonomic_angles),
-        Section::ErgonomicAnglesXzy => vectors(&frame.ergonomic_angles_xzy),
-        Section::SensorOrientation => quaternions(&frame.sensor_orientation),
-        Section::SensorFreeAcceleration => vectors(&frame.sensor_free_acceleration),
-        Section::SensorAcceleration => vectors(&frame.sensor_acceleration),
-        Section::SensorAngularVelocity => vectors(&frame.sensor_angular_velocity),
-        Section::SensorMagneticField => vectors(&frame.sensor_magnetic_field),
-        Section::CenterOfMass => whole.map(|whole| whole.position.to_array().to_vec()),
-        Section::CenterOfMassVelocity => whole.and_then(|whole| whole.velocity).map(|v| v.to_array().to_vec()),
-        Section::CenterOfMassAcceleration => whole
-            .and_then(|whole| whole.acceleration)
-            .map(|a| a.to_array().to_vec()),
-        _ => None,
+    let numbers = match List::of(frame, section) {
+        List::Vectors(list) => vectors(list),
+        List::Rotations(list) => rotations(list),
+        List::Body(vector) => vector.map(|vector| vector.to_array().to_vec()).unwrap_or_default(),
+    };
+    (!numbers.is_empty()).then_some(numbers)
+}
+
+/// The entries of a section, as a frame has them.
+pub(crate) enum List<'a> {
+    Vectors(&'a [Option<DVec3>]),
+    Rotations(&'a [Option<DQuat>]),
+    /// The one vector of the body as a whole.
+    Body(Option<DVec3>),
+}
+
+impl<'a> List<'a> {
+    pub(crate) fn of(frame: &'a Frame, section: Section) -> Self {
+        let whole = frame.center_of_mass.as_ref();
+        match section {
+            Section::Position => Self::Vectors(&frame.position),
+            Section::Orientation => Self::Rotations(&frame.orientation),
+            Section::Velocity => Self::Vectors(&frame.velocity),
+            Section::Acceleration => Self::Vectors(&frame.acceleration),
+            Section::AngularVelocity => Self::Vectors(&frame.angular_velocity),
+            Section::AngularAcceleration => Self::Vectors(&frame.angular_acceleration),
+            Section::JointAngles => Self::Vectors(&frame.joint_angles),
+            Section::JointAnglesXzy => Self::Vectors(&frame.joint_angles_xzy),
+            Section::ErgonomicAngles => Self::Vectors(&frame.ergonomic_angles),
+            Section::ErgonomicAnglesXzy => Self::Vectors(&frame.ergonomic_angles_xzy),
+            Section::SensorOrientation => Self::Rotations(&frame.sensor_orientation),
+            Section::SensorFreeAcceleration => Self::Vectors(&frame.sensor_free_acceleration),
+            Section::SensorAcceleration => Self::Vectors(&frame.sensor_acceleration),
+            Section::SensorAngularVelocity => Self::Vectors(&frame.sensor_angular_velocity),
+            Section::SensorMagneticField => Self::Vectors(&frame.sensor_magnetic_field),
+            Section::CenterOfMass => Self::Body(whole.map(|whole| whole.position)),
+            Section::CenterOfMassVelocity => Self::Body(whole.and_then(|whole| whole.velocity)),
+            Section::CenterOfMassAcceleration => Self::Body(whole.and_then(|whole| whole.acceleration)),
+            _ => Self::Body(None),
+        }
+    }
+
+    /// How many entries there are; of the body one, or none where it is not known.
+    pub(crate) fn len(&self) -> usize {
+        match self {
+            Self::Vectors(list) => list.len(),
+            Self::Rotations(list) => list.len(),
+            Self::Body(vector) => usize::from(vector.is_some()),
+        }
+    }
+
+    /// Whether the entry at a place is tracked.
+    pub(crate) fn is_known(&self, place: usize) -> bool {
+        match self {
+            Self::Vectors(list) => list.get(place).is_some_and(Option::is_some),
+            Self::Rotations(list) => list.get(place).is_some_and(Option::is_some),
+            Self::Body(vector) => vector.is_some(),
+        }
     }
 }
 
-fn vectors(list: &[Option<DVec3>]) -> Option<Vec<f64>> {
+fn vectors(list: &[Option<DVec3>]) -> Vec<f64> {
     let lost = [f64::NAN; 3];
-    let numbers = list.iter().flat_map(|entry| entry.map_or(lost, |v| v.to_array()));
-    (!list.is_empty()).then(|| numbers.collect())
+    list.iter()
+        .flat_map(|entry| entry.map_or(lost, |v| v.to_array()))
+        .collect()
 }
 
-fn quaternions(list: &[Option<DQuat>]) -> Option<Vec<f64>> {
+fn rotations(list: &[Option<DQuat>]) -> Vec<f64> {
     let lost = [f64::NAN; 4];
-    let numbers = list
-        .iter()
-        .flat_map(|entry| entry.map_or(lost, |q| [q.w, q.x, q.y, q.z]));
-    (!list.is_empty()).then(|| numbers.collect())
+    list.iter()
+        .flat_map(|entry| entry.map_or(lost, |q| [q.w, q.x, q.y, q.z]))
+        .collect()
 }

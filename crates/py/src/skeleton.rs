@@ -1,6 +1,7 @@
 //! Segments and joints, by name.
 
 use crate::array;
+use crate::error::usage;
 use crate::number::Whole;
 use posewire_motion::Subject;
 use posewire_motion::standard::MAX_PROPS;
@@ -18,12 +19,18 @@ pub(crate) struct Skeleton {
 impl Skeleton {
     /// MVN's skeleton: 23 body segments and 22 joints, then up to 4 `props`, then, with `fingers`, 20 segments of each hand.
     ///
-    /// Raises UsageError for another number of props.
+    /// `sensors` are the names of the segments that wear motion trackers, in the order of the sensors' arrays: MVN's 17 if left out.
+    ///
+    /// Raises UsageError for another number of props, and for sensors that are no segments.
     #[staticmethod]
-    #[pyo3(signature = (props = Whole::of(0), fingers = false), text_signature = "(props=0, fingers=False)")]
-    fn standard(props: Whole, fingers: bool) -> PyResult<Self> {
+    #[pyo3(signature = (props = Whole::of(0), fingers = false, sensors = None),
+        text_signature = "(props=0, fingers=False, sensors=None)")]
+    fn standard(props: Whole, fingers: bool, sensors: Option<Vec<String>>) -> PyResult<Self> {
         let props = props.within("props", 0..=MAX_PROPS)?;
-        let skeleton = posewire_motion::Skeleton::standard(props, fingers);
+        let mut skeleton = posewire_motion::Skeleton::standard(props, fingers);
+        if let Some(sensors) = sensors {
+            skeleton.sensors = worn(&skeleton, &sensors)?;
+        }
         let subject = Arc::new(Subject::new("", skeleton));
         Ok(Self { subject })
     }
@@ -91,4 +98,27 @@ impl Skeleton {
         let (segments, joints) = (skeleton.segments.len(), skeleton.joints.len());
         format!("<posewire.Skeleton: {segments} segments, {joints} joints>")
     }
+}
+
+/// The places of the segments with these names, each once.
+fn worn(skeleton: &posewire_motion::Skeleton, names: &[String]) -> PyResult<Vec<usize>> {
+    let place = |name: &String| {
+        let unknown = || {
+            let segments: Vec<_> = skeleton.segments.iter().map(|segment| segment.name.as_str()).collect();
+            usage(
+                format!("expected names of segments as the sensors, found {name:?}"),
+                format!("the segments are {}", segments.join(", ")),
+            )
+        };
+        skeleton.segment(name).ok_or_else(unknown)
+    };
+    let places = names.iter().map(place).collect::<PyResult<Vec<_>>>()?;
+    let twice = (0..places.len()).find(|&this| places[..this].contains(&places[this]));
+    twice.map_or(Ok(places), |this| {
+        let message = format!(
+            "expected each sensor on a segment of its own, found {:?} twice",
+            names[this]
+        );
+        Err(usage(message, "a segment wears one motion tracker"))
+    })
 }

@@ -35,9 +35,10 @@ def refused(use):
 def child():
     for use in (stream.latest, stream.next, stream.statistics, lambda: next(stream), lambda: stream.subjects, busy.latest,
                 lambda: stream.dropped, lambda: stream.notices, recorder.progress, recorder.__enter__,
-                lambda: streamer.send(*still)):
+                lambda: streamer.send(*still),
+                streamer.progress, lambda: streamer.notices, lambda: streamer.dropped):
         refused(use)
-    assert stream.closed and stream.url
+    assert stream.closed and streamer.closed and stream.url
     stream.close()
     busy.close()
     recorder.close()

@@ -15,6 +15,7 @@ use crate::{json, render};
 use peers::Peers;
 use posewire::endpoint::Endpoint;
 use posewire::faults::FaultPlan;
+use posewire::json::StreamRecord;
 use posewire::sink::Progress;
 use posewire::source::{PlaybackOptions, Preview};
 use posewire::{Session, Source};
@@ -73,7 +74,7 @@ pub(super) fn run(arguments: &Stream) -> anyhow::Result<End> {
     peers.tell(&progress);
     let unsent = teller.lost_here() + outcome.as_ref().map_or(0, |outcome| outcome.dropped);
     if arguments.json {
-        json::print(&json::StreamRecord::new(&progress, unsent, plan.as_ref()))?;
+        json::print(&StreamRecord::new(&progress, unsent, plan.as_ref()))?;
     } else {
         say(render::stream_summary(&progress, unsent));
     }

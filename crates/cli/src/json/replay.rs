@@ -1,9 +1,7 @@
 //! How a replay went.
 
-use super::faults::FaultsRecord;
-use super::stream::TargetRecord;
 use posewire::faults::FaultPlan;
-use posewire::json::Spread;
+use posewire::json::{FaultsRecord, Spread, TargetRecord};
 use posewire::replay::Replayed;
 use serde::Serialize;
 

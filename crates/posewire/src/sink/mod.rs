@@ -2,6 +2,7 @@
 
 mod mxtp;
 mod natnet;
+mod notices;
 mod progress;
 mod record;
 mod take;

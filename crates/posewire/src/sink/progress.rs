@@ -1,5 +1,6 @@
 //! How far a stream has come.
 
+use crate::Notice;
 use crate::faults::FaultCounts;
 use crate::histogram::Summary;
 use posewire_natnet::Version;
@@ -81,6 +82,8 @@ pub struct TargetProgress {
     pub dropped: u64,
     /// Who has connected to a NatNet target, those who have left included, in the order in which they came.
     pub clients: Vec<ClientProgress>,
+    /// Who came and went, the newest 100 and those last. A target that nobody connects to has none.
+    pub notices: Vec<Notice>,
 }
 
 /// What became of what was sent to one NatNet client.

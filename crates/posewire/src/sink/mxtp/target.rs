@@ -97,6 +97,7 @@ impl Target {
                 peers: target.peers(),
                 datagrams: target.written(),
                 dropped: target.dropped(),
+                notices: target.notices(),
                 ..TargetProgress::default()
             },
         }

@@ -89,7 +89,8 @@ impl MxtpTargets {
         self.lock().iter_mut().try_for_each(|place| place.send(datagrams))
     }
 
-    pub(super) fn progress(&self) -> Vec<TargetProgress> {
+    /// What has become of what was sent to each of them, and who came and went, up to now.
+    pub fn progress(&self) -> Vec<TargetProgress> {
         self.lock().iter().map(Place::progress).collect()
     }
 
@@ -143,6 +144,7 @@ impl Place {
             congested: past.congested + now.congested,
             failed: past.failed + now.failed,
             dropped: past.dropped + now.dropped,
+            notices: [past.notices.clone(), now.notices].concat(),
             ..now
         }
     }

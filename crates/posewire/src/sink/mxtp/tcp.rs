@@ -3,8 +3,9 @@
 use crate::endpoint::{TcpAddress, TcpMode};
 use crate::net::{self, Backoff, TcpConnection, TcpIncoming};
 use crate::queue::{Consumer, Policy, Producer, bounded};
+use crate::sink::notices::Notices;
 use crate::stop::Stop;
-use crate::{Error, Result};
+use crate::{Error, Notice, Result};
 use posewire_mxtp::motion::Datagrams;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -37,6 +38,7 @@ struct Peers {
     open: AtomicUsize,
     written: AtomicU64,
     dropped: AtomicU64,
+    notices: Notices,
 }
 
 impl TcpTarget {
@@ -85,6 +87,11 @@ impl TcpTarget {
         queued + self.peers.dropped.load(Ordering::Relaxed)
     }
 
+    /// Who came and went.
+    pub(super) fn notices(&self) -> Vec<Notice> {
+        self.peers.notices.to_vec()
+    }
+
     /// Queues the datagrams of one sample for every peer. Never waits.
     pub(super) fn send(&mut self, datagrams: &Datagrams) {
         let mut queues = self.peers.lock();
@@ -126,6 +133,7 @@ impl Peers {
             open: AtomicUsize::new(0),
             written: AtomicU64::new(0),
             dropped: AtomicU64::new(0),
+            notices: Notices::default(),
         }
     }
 
@@ -155,10 +163,17 @@ impl Peers {
     /// Writes what is queued until the queue closes, the connection breaks or the flush limit passes.
     fn serve(&self, mut connection: TcpConnection, queue: &Consumer<Sample>) {
         let peer = connection.peer();
+        self.notices.push(Notice::Connected { peer: peer.to_string() });
         let mut samples = Vec::new();
         let outcome = self.write_all(&mut connection, queue, &mut samples);
         queue.close();
         let left = (samples.len() + queue.len()) as u64;
+        if let Err(error) = &outcome {
+            self.notices.push(Notice::Disconnected {
+                peer: peer.to_string(),
+                reason: error.to_string(),
+            });
+        }
         match outcome {
             Ok(()) => {}
             Err(error @ Error::Stalled { .. }) => {
@@ -214,13 +229,22 @@ impl Peers {
 fn keep_connected(address: &TcpAddress, first: TcpConnection, queue: &Consumer<Sample>, peers: &Peers) {
     peers.serve(first, queue);
     let mut backoff = Backoff::default();
+    let mut is_told = false;
     while !peers.ending.wait(backoff.next_delay()) {
-        if let Ok(connection) = net::connect(address, RECONNECT_TIMEOUT) {
-            let begun = Instant::now();
-            peers.serve(connection, &peers.welcome());
-            if begun.elapsed() >= STEADY {
-                backoff.reset();
+        match net::connect(address, RECONNECT_TIMEOUT) {
+            Ok(connection) => {
+                let begun = Instant::now();
+                peers.serve(connection, &peers.welcome());
+                if begun.elapsed() >= STEADY {
+                    backoff.reset();
+                }
+                is_told = false;
             }
+            Err(error) if !is_told => {
+                peers.notices.push(Notice::NotConnected { error });
+                is_told = true;
+            }
+            Err(_) => {}
         }
     }
 }

@@ -1,6 +1,8 @@
 //! Who is served, and what became of what was sent.
 
+use crate::Notice;
 use crate::net::Sent;
+use crate::sink::notices::Notices;
 use crate::sink::{ClientProgress, ClientState, TargetProgress};
 use posewire_natnet::Version;
 use posewire_natnet::command::Sender;
@@ -11,6 +13,7 @@ use std::net::SocketAddr;
 #[derive(Debug, Default)]
 pub(crate) struct Ledger {
     clients: Vec<ClientProgress>,
+    notices: Notices,
     datagrams: u64,
     congested: u64,
     refused: u64,
@@ -40,6 +43,9 @@ impl Ledger {
 
     /// Enters a client, or one that comes again.
     fn connected(&mut self, address: SocketAddr, sender: Option<&Sender>, version: Version) {
+        self.notices.push(Notice::Connected {
+            peer: who(address, &sender.map(name).unwrap_or_default()),
+        });
         if let Some(known) = self.find(address) {
             (known.state, known.version) = (ClientState::Connected, version);
             return;
@@ -68,9 +74,16 @@ impl Ledger {
     }
 
     fn left(&mut self, address: SocketAddr, state: ClientState) {
-        if let Some(client) = self.find(address) {
-            client.state = state;
-        }
+        let Some(client) = self.find(address) else { return };
+        client.state = state;
+        let peer = who(address, &client.name);
+        self.notices.push(if state == ClientState::Silent {
+            let reason = "nothing came from it any more".to_owned();
+            Notice::Disconnected { peer, reason }
+        } else {
+            let text = format!("{peer} has left");
+            Notice::Remark { text }
+        });
     }
 
     /// Enters what became of one frame for `to`.
@@ -114,11 +127,20 @@ impl Ledger {
             failed: self.refused + self.too_large,
             dropped: 0,
             clients: self.clients.clone(),
+            notices: self.notices.to_vec(),
         }
     }
 
     fn find(&mut self, address: SocketAddr) -> Option<&mut ClientProgress> {
         self.clients.iter_mut().find(|client| client.address == address)
+    }
+}
+
+/// A client's address and, where it has one, its name.
+fn who(address: SocketAddr, name: &str) -> String {
+    match name {
+        "" => address.to_string(),
+        name => format!("{address} ({name})"),
     }
 }
 
@@ -151,6 +173,29 @@ mod tests {
         let progress = ledger.progress("natnet://127.0.0.1", false);
         assert_eq!((progress.datagrams, progress.congested, progress.failed), (1, 1, 0));
         assert_eq!((progress.clients[0].frames, progress.clients[0].dropped), (1, 2));
+    }
+
+    #[test]
+    fn who_came_and_went_is_told() {
+        let mut ledger = Ledger::default();
+        let sender = Sender {
+            name: "ROS".into(),
+            ..Sender::default()
+        };
+        for address in [client(1), client(2)] {
+            ledger.connected(address, Some(&sender), Version::new(4, 1));
+        }
+        ledger.left(client(1), ClientState::Left);
+        ledger.left(client(2), ClientState::Silent);
+        let notices = ledger.progress("natnet://127.0.0.1", false).notices;
+        let told: Vec<_> = notices.iter().map(ToString::to_string).collect();
+        let expected = [
+            "connected to 127.0.0.1:1 (ROS)",
+            "connected to 127.0.0.1:2 (ROS)",
+            "127.0.0.1:1 (ROS) has left",
+            "lost the connection to 127.0.0.1:2 (ROS): nothing came from it any more",
+        ];
+        assert_eq!(told, expected);
     }
 
     #[test]

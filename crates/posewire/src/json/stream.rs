@@ -1,14 +1,23 @@
 //! How a stream went that we sent.
 
-use super::faults::FaultsRecord;
-use posewire::faults::FaultPlan;
-use posewire::json::Spread;
-use posewire::sink::{ClientProgress, ClientState, LeftOut, Progress, TargetProgress};
+use super::{FaultsRecord, Spread};
+use crate::faults::FaultPlan;
+use crate::sink::{ClientProgress, ClientState, LeftOut, Progress, TargetProgress};
 use serde::Serialize;
 
-/// How a stream went that we sent.
-#[derive(Serialize)]
-pub(crate) struct StreamRecord<'a> {
+/// How a stream that we send is going, or went: what `posewire stream --json` prints at the end.
+///
+/// ```
+/// use posewire::json::StreamRecord;
+/// use posewire::sink::Progress;
+///
+/// let progress = Progress::default();
+/// let json = serde_json::to_value(StreamRecord::new(&progress, 0, None))?;
+/// assert_eq!((&json["kind"], &json["lost"]), (&"stream".into(), &0.into()));
+/// # Ok::<(), serde_json::Error>(())
+/// ```
+#[derive(Debug, Serialize)]
+pub struct StreamRecord<'a> {
     kind: &'static str,
     frames: u64,
     lost: u64,
@@ -19,14 +28,15 @@ pub(crate) struct StreamRecord<'a> {
     faults: Option<FaultsRecord>,
 }
 
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 struct LeftOutRecord<'a> {
     what: &'a str,
     why: &'a str,
 }
 
-#[derive(Serialize)]
-pub(super) struct TargetRecord<'a> {
+/// What became of what was sent to one target.
+#[derive(Debug, Serialize)]
+pub struct TargetRecord<'a> {
     endpoint: &'a str,
     peers: usize,
     datagrams: u64,
@@ -36,7 +46,7 @@ pub(super) struct TargetRecord<'a> {
     clients: Vec<ClientRecord<'a>>,
 }
 
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 struct ClientRecord<'a> {
     address: String,
     name: &'a str,
@@ -47,8 +57,8 @@ struct ClientRecord<'a> {
 }
 
 impl<'a> StreamRecord<'a> {
-    /// `unsent` is what of a live source was lost on this machine before it could be sent.
-    pub(crate) fn new(progress: &'a Progress, unsent: u64, plan: Option<&FaultPlan>) -> Self {
+    /// `unsent` is what of a live source was lost on this machine before it could be sent; `plan` are the faults on purpose.
+    pub fn new(progress: &'a Progress, unsent: u64, plan: Option<&FaultPlan>) -> Self {
         let faults = plan.zip(progress.faults.as_ref());
         Self {
             kind: "stream",
@@ -64,7 +74,8 @@ impl<'a> StreamRecord<'a> {
 }
 
 impl<'a> TargetRecord<'a> {
-    pub(super) fn of(target: &'a TargetProgress) -> Self {
+    /// The record of a target.
+    pub fn of(target: &'a TargetProgress) -> Self {
         Self {
             endpoint: &target.endpoint,
             peers: target.peers,

@@ -1,12 +1,12 @@
 //! What was done to a stream on purpose.
 
-use posewire::faults::{FaultCounts, FaultKind, FaultPlan, FaultedStream};
+use crate::faults::{FaultCounts, FaultKind, FaultPlan, FaultedStream};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// What was done to a stream on purpose.
-#[derive(Serialize)]
-pub(crate) struct FaultsRecord {
+#[derive(Debug, Serialize)]
+pub struct FaultsRecord {
     plan: String,
     taken: u64,
     sent: u64,
@@ -14,7 +14,7 @@ pub(crate) struct FaultsRecord {
     streams: Vec<StreamFaults>,
 }
 
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 struct StreamFaults {
     character: Option<u8>,
     r#type: Option<String>,
@@ -22,7 +22,8 @@ struct StreamFaults {
 }
 
 impl FaultsRecord {
-    pub(crate) fn new(plan: &FaultPlan, counts: &FaultCounts) -> Self {
+    /// The record of what was done by a plan.
+    pub fn new(plan: &FaultPlan, counts: &FaultCounts) -> Self {
         Self {
             plan: plan.to_string(),
             taken: counts.taken,

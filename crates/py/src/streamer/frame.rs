@@ -1,0 +1,88 @@
+//! From arrays of numpy to a frame.
+
+use super::carrying::Carrying;
+use super::numbers::{quaternions, vectors};
+use crate::error::usage;
+use posewire_motion::{CenterOfMass, DVec3, Frame, Section, Timecode};
+use pyo3::prelude::*;
+use std::time::Duration;
+
+/// Gives a frame the numbers of a section.
+pub(super) fn set(frame: &mut Frame, section: Section, numbers: &Bound<'_, PyAny>) -> PyResult<()> {
+    let subject = frame.subject.clone();
+    if matches!(section, Section::Orientation | Section::SensorOrientation) {
+        let rotations = quaternions(&subject.skeleton, section, numbers)?;
+        match section {
+            Section::Orientation => frame.orientation = rotations,
+            _ => frame.sensor_orientation = rotations,
+        }
+        return Ok(());
+    }
+    let vectors = vectors(&subject.skeleton, section, numbers)?;
+    match section {
+        Section::Position => frame.position = vectors,
+        Section::Velocity => frame.velocity = vectors,
+        Section::Acceleration => frame.acceleration = vectors,
+        Section::AngularVelocity => frame.angular_velocity = vectors,
+        Section::AngularAcceleration => frame.angular_acceleration = vectors,
+        Section::JointAngles => frame.joint_angles = vectors,
+        Section::JointAnglesXzy => frame.joint_angles_xzy = vectors,
+        Section::ErgonomicAngles => frame.ergonomic_angles = vectors,
+        Section::ErgonomicAnglesXzy => frame.ergonomic_angles_xzy = vectors,
+        Section::SensorFreeAcceleration => frame.sensor_free_acceleration = vectors,
+        Section::SensorAcceleration => frame.sensor_acceleration = vectors,
+        Section::SensorAngularVelocity => frame.sensor_angular_velocity = vectors,
+        Section::SensorMagneticField => frame.sensor_magnetic_field = vectors,
+        section => set_center_of_mass(frame, section, vectors.first().copied().flatten())?,
+    }
+    Ok(())
+}
+
+/// Velocity and acceleration follow the position, which is what makes a centre of mass.
+fn set_center_of_mass(frame: &mut Frame, section: Section, value: Option<DVec3>) -> PyResult<()> {
+    if section == Section::CenterOfMass {
+        frame.center_of_mass = value.map(|position| CenterOfMass {
+            position,
+            velocity: None,
+            acceleration: None,
+        });
+        return Ok(());
+    }
+    match (&mut frame.center_of_mass, section) {
+        (Some(whole), Section::CenterOfMassVelocity) => whole.velocity = value,
+        (Some(whole), _) => whole.acceleration = value,
+        (None, _) if value.is_none() => {}
+        (None, _) => {
+            return Err(usage(
+                format!("expected the position of the centre of mass beside {section}, found none"),
+                "give center_of_mass= as well",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// The program's clock.
+pub(super) fn clock(seconds: f64, carrying: Carrying) -> PyResult<Duration> {
+    let wrong = |expected: &str, help: &str| usage(format!("expected {expected} as the time, found {seconds}"), help);
+    let time = Duration::try_from_secs_f64(seconds)
+        .map_err(|_| wrong("seconds from 0 on", "leave it out to go by the rate"))?;
+    if carrying.mxtp.is_some() && time.as_millis() > u32::MAX.into() {
+        return Err(wrong(
+            "at most 4294967.295 seconds, which MXTP's clock can tell,",
+            "count from the beginning of the stream; timecode= is for the time of day",
+        ));
+    }
+    Ok(time)
+}
+
+/// A time of day.
+pub(super) fn timecode(seconds: f64) -> PyResult<Timecode> {
+    if !(0.0..86_400.0).contains(&seconds) {
+        return Err(usage(
+            format!("expected seconds from 0 to 86400 as the timecode, found {seconds}"),
+            "they are counted from midnight, UTC: time.time() % 86400",
+        ));
+    }
+    Ok(Timecode::from_milliseconds((seconds * 1000.0).round() as u64))
+}

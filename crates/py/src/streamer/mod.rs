@@ -1,0 +1,418 @@
+//! A program as a suit or a camera system.
+
+mod carrying;
+mod frame;
+mod numbers;
+mod told;
+
+use crate::error::{exception, raised, usage};
+use crate::process::Opened;
+use crate::section::named;
+use crate::skeleton::Skeleton;
+use carrying::Carrying;
+use frame::{clock, set, timecode};
+use posewire::endpoint::Endpoint;
+use posewire::sink::{MxtpSink, MxtpSinkOptions, NatNetSink, NatNetSinkOptions, Progress};
+use posewire::stop::Stop;
+use posewire::{Feed, Item, Session, Sink};
+use posewire_motion::{Frame, Section, Subject};
+use posewire_mxtp::motion::MessageTypes;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+use told::Told;
+
+/// Opens targets that samples of the program's own are sent to: "mxtp://HOST:PORT", "mxtp+tcp://HOST:PORT", and
+/// "natnet://0.0.0.0", which is a server.
+///
+/// `names` are the subjects, all of one `skeleton`; MVN's own if it is left out. `rate` is in samples a second and makes the
+/// clock of samples that come without a time. `types` are the MXTP datagram types, as "02,12,13,20" or "all".
+///
+/// Raises NetworkError and UsageError as the command line does.
+#[pyfunction]
+#[pyo3(signature = (*urls, skeleton = None, rate = 240.0, names = None, types = None))]
+pub(crate) fn streamer(
+    py: Python<'_>,
+    urls: &Bound<'_, PyTuple>,
+    skeleton: Option<PyRef<'_, Skeleton>>,
+    rate: f64,
+    names: Option<Vec<String>>,
+    types: Option<&str>,
+) -> PyResult<Streamer> {
+    if !(rate.is_finite() && rate > 0.0) {
+        return Err(usage(
+            format!("expected samples a second as the rate, found {rate}"),
+            "use a number above 0",
+        ));
+    }
+    let skeleton = skeleton.map_or_else(
+        || posewire_motion::Skeleton::standard(0, false),
+        |skeleton| skeleton.subject.skeleton.clone(),
+    );
+    let names = names.unwrap_or_else(|| vec!["posewire".to_owned()]);
+    let subjects: Vec<_> = (0..)
+        .zip(&names)
+        .map(|(id, name)| subject(id, name, &skeleton, rate))
+        .collect();
+    let urls = urls.extract::<Vec<String>>()?;
+    let mut options = MxtpSinkOptions::default();
+    if let Some(types) = types {
+        options.types = message_types(types)?;
+    }
+    let carrying = Carrying {
+        mxtp: urls.iter().any(|url| !is_natnet(url)).then_some(options.types),
+        natnet: urls.iter().any(|url| is_natnet(url)),
+    };
+    let opened = py.detach(|| open(&urls, &subjects, options, rate));
+    let (sinks, told) = opened.map_err(|error| raised(&error))?;
+    if sinks.is_empty() {
+        return Err(usage(
+            "expected where to send to, found nothing",
+            "as in posewire.streamer(\"mxtp://127.0.0.1:9763\")",
+        ));
+    }
+    let (session, mut feed) = Session::fed(sinks, Stop::new());
+    feed.push(subjects.iter().cloned().map(Item::Subject));
+    Ok(Streamer {
+        urls: urls_of(&told),
+        told,
+        failure: Mutex::new(None),
+        rate,
+        next: Mutex::new(vec![0; subjects.len()]),
+        subjects,
+        carrying,
+        running: Opened::new("the streamer", Mutex::new(Some(Running { session, feed }))),
+    })
+}
+
+fn is_natnet(url: &str) -> bool {
+    matches!(url.parse(), Ok(Endpoint::NatNet(_)))
+}
+
+fn message_types(text: &str) -> PyResult<MessageTypes> {
+    let types = text.parse().unwrap_or(MessageTypes::NONE);
+    if types.is_empty() || types.iter().any(|one| !MessageTypes::ALL.contains(one)) {
+        let message = format!("expected datagram types with two digits and commas, found {text:?}");
+        return Err(usage(message, format!("use all, or some of {}", MessageTypes::ALL)));
+    }
+    Ok(types)
+}
+
+fn subject(id: u32, name: &str, skeleton: &posewire_motion::Skeleton, rate: f64) -> Arc<Subject> {
+    Arc::new(Subject {
+        id,
+        rate: Some(rate),
+        ..Subject::new(name, skeleton.clone())
+    })
+}
+
+type Sinks = Vec<Box<dyn Sink>>;
+
+/// Opens the sinks, and tells how they are doing.
+fn open(
+    urls: &[String],
+    subjects: &[Arc<Subject>],
+    options: MxtpSinkOptions,
+    rate: f64,
+) -> posewire::Result<(Sinks, Vec<Told>)> {
+    let mut mxtp = Vec::new();
+    let mut sinks = Sinks::new();
+    let mut told = Vec::new();
+    for url in urls {
+        let target = url.parse::<Endpoint>()?;
+        let Endpoint::NatNet(address) = target else {
+            mxtp.push(target);
+            continue;
+        };
+        let options = NatNetSinkOptions {
+            rate: Some(rate),
+            ..NatNetSinkOptions::default()
+        };
+        let mut sink = NatNetSink::open(&address, options)?;
+        subjects.iter().try_for_each(|subject| sink.describe(subject))?;
+        told.push(Told::of_natnet(&sink));
+        sinks.push(Box::new(sink));
+    }
+    if !mxtp.is_empty() {
+        let sink = MxtpSink::open(&mxtp, options)?;
+        told.push(Told::of_mxtp(&sink));
+        sinks.push(Box::new(sink));
+    }
+    Ok((sinks, told))
+}
+
+fn urls_of(told: &[Told]) -> Vec<String> {
+    let targets = told::progress(told).targets.into_iter();
+    targets.map(|target| target.endpoint).collect()
+}
+
+/// Sends samples as a suit does. Use it as a context manager, or close it.
+#[pyclass(frozen, module = "posewire")]
+pub(crate) struct Streamer {
+    urls: Vec<String>,
+    told: Vec<Told>,
+    /// What ended it.
+    failure: Mutex<Option<posewire::Error>>,
+    rate: f64,
+    subjects: Vec<Arc<Subject>>,
+    carrying: Carrying,
+    /// Per subject: the number of its next sample.
+    next: Mutex<Vec<u32>>,
+    running: Opened<Mutex<Option<Running>>>,
+}
+
+struct Running {
+    session: Session,
+    feed: Feed,
+}
+
+impl Streamer {
+    /// What runs; nothing in a child of the process that opened it.
+    fn lock(&self) -> Option<MutexGuard<'_, Option<Running>>> {
+        let running = self.running.if_here()?;
+        Some(running.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// The number of the next sample of a subject, after the one that is sent now.
+    fn number(&self, subject: usize, sample: Option<u32>) -> u32 {
+        let mut next = self.next.lock().unwrap_or_else(PoisonError::into_inner);
+        let sample = sample.unwrap_or(next[subject]);
+        next[subject] = sample.wrapping_add(1);
+        sample
+    }
+
+    /// The place of the subject with this number or name; the first if left out.
+    fn place(&self, subject: Option<&Bound<'_, PyAny>>) -> PyResult<usize> {
+        let Some(subject) = subject else { return Ok(0) };
+        let by_name = |name: &String| self.subjects.iter().position(|subject| subject.name == *name);
+        let found = match subject.extract::<String>() {
+            Ok(name) => by_name(&name),
+            Err(_) => subject
+                .extract::<usize>()
+                .ok()
+                .filter(|place| *place < self.subjects.len()),
+        };
+        found.ok_or_else(|| {
+            let names: Vec<_> = self
+                .subjects
+                .iter()
+                .map(|subject| format!("{:?}", subject.name))
+                .collect();
+            let found = subject
+                .repr()
+                .map_or_else(|_| "another".to_owned(), |repr| repr.to_string());
+            usage(
+                format!("expected one of the subjects {}, found {found}", names.join(", ")),
+                "give its name, or its place in names=, counted from 0",
+            )
+        })
+    }
+
+    fn push(&self, frame: Frame) -> Result<(), Ended> {
+        let mut running = self.lock();
+        let Some(Running { feed, .. }) = running.as_deref_mut().and_then(Option::as_mut) else {
+            return Err(Ended::Closed);
+        };
+        let item = Item::Frame {
+            frame: Arc::new(frame),
+            due: Some(Instant::now()),
+        };
+        if feed.push([item]) {
+            return Ok(());
+        }
+        let running = running.as_deref_mut().and_then(Option::take);
+        let failed = running.map_or(Ok(()), |running| self.finish(running));
+        Err(failed.map_or_else(Ended::Failed, |()| Ended::Closed))
+    }
+
+    /// Ends the threads, and remembers what had ended them before, if something had.
+    fn finish(&self, Running { session, feed }: Running) -> posewire::Result<()> {
+        drop(feed);
+        let ended = session.wait().map(drop);
+        self.told.iter().for_each(Told::end);
+        *self.lock_failure() = ended.clone().err();
+        ended
+    }
+
+    fn lock_failure(&self) -> MutexGuard<'_, Option<posewire::Error>> {
+        self.failure.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn closed_error(&self) -> PyErr {
+        let failure = self.lock_failure();
+        let reason = failure.as_ref().map(|error| format!(": {error}")).unwrap_or_default();
+        exception("ClosedError", format!("the streamer is closed{reason}"), None)
+    }
+
+    fn progress_now(&self) -> Progress {
+        told::progress(&self.told)
+    }
+}
+
+enum Ended {
+    Closed,
+    Failed(posewire::Error),
+}
+
+#[pymethods]
+impl Streamer {
+    /// Where it sends to.
+    #[getter]
+    fn urls(&self) -> Vec<String> {
+        self.urls.clone()
+    }
+
+    /// The segments that positions and orientations are for.
+    #[getter]
+    fn skeleton(&self) -> Option<Skeleton> {
+        let subject = self.subjects.first().map(Arc::clone);
+        subject.map(|subject| Skeleton { subject })
+    }
+
+    /// Sends a sample of the subject at a place of `names`, or of that name.
+    ///
+    /// `position` is (segments, 3) in metres, `orientation` (segments, 4), w first; NaN is not tracked. Other sections come by their
+    /// names: velocity=, joint_angles=, sensor_orientation= ... Whatever is given is sent to a target that has a place for it. Quaternions
+    /// whose length is within 0.001 of 1 are made so long.
+    ///
+    /// `sample` is the number of the sample, one more than the last if left out; `time` is the program's own clock in seconds from 0, the
+    /// number by the rate if left out; `timecode` is the time of day, UTC, in seconds since midnight.
+    ///
+    /// Raises UsageError for arrays that do not fit the skeleton and for what no target has a place for, ClosedError after the end,
+    /// and what ended the sending.
+    #[pyo3(signature = (position = None, orientation = None, *, subject = None, sample = None, time = None, timecode = None,
+        **sections))]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
+    fn send(
+        &self,
+        py: Python<'_>,
+        position: Option<&Bound<'_, PyAny>>,
+        orientation: Option<&Bound<'_, PyAny>>,
+        subject: Option<&Bound<'_, PyAny>>,
+        sample: Option<u32>,
+        time: Option<f64>,
+        timecode: Option<f64>,
+        sections: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<()> {
+        self.running.here()?;
+        if self.closed() {
+            return Err(self.closed_error());
+        }
+        let place = self.place(subject)?;
+        let mut frame = Frame::new(Arc::clone(&self.subjects[place]));
+        let poses = [(Section::Position, position), (Section::Orientation, orientation)];
+        let poses = poses
+            .into_iter()
+            .filter_map(|(section, numbers)| Some((section, numbers?.clone())));
+        let sections: Vec<_> = poses.chain(named_sections(sections)?).collect();
+        if sections.is_empty() {
+            return Err(usage(
+                "expected something to send, found nothing",
+                "give position and orientation, or sections by their names: joint_angles=",
+            ));
+        }
+        for (section, numbers) in &sections {
+            set(&mut frame, *section, numbers)?;
+        }
+        let given: Vec<_> = sections.iter().map(|(section, _)| *section).collect();
+        self.carrying.check(&frame, &given)?;
+        if let Some(seconds) = timecode {
+            frame.timecode = Some(self::timecode(seconds)?);
+            self.carrying.check_timecode()?;
+        }
+        let time = time.map(|time| clock(time, self.carrying)).transpose()?;
+        frame.sample = self.number(place, sample);
+        let by_rate = || Duration::from_secs_f64(f64::from(frame.sample) / self.rate);
+        frame.time = time.unwrap_or_else(by_rate);
+        py.detach(|| self.push(frame)).map_err(|ended| match ended {
+            Ended::Closed => self.closed_error(),
+            Ended::Failed(error) => raised(&error),
+        })
+    }
+
+    /// Datagrams, and of TCP samples, that did not reach their target for a reason on this side: a TCP peer was too slow for them or
+    /// away, the network had no room, the system refused them. What gets lost behind that only the receiver can know.
+    #[getter]
+    fn dropped(&self, py: Python<'_>) -> PyResult<u64> {
+        self.running.here()?;
+        Ok(py.detach(|| self.progress_now().lost()))
+    }
+
+    /// How far it has come, as `posewire stream --json` tells it: a dict of frames, lost, lateness_ms, targets with their numbers and
+    /// their clients, and what is left_out. It goes on until it is closed, and stays after that.
+    fn progress<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.running.here()?;
+        let progress = py.detach(|| self.progress_now());
+        told::record(py, &progress)
+    }
+
+    /// What has happened, target by target: who connected and left, what failed, and what a target has no place for. The newest
+    /// 100 of each target, the newest last.
+    #[getter]
+    fn notices(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        self.running.here()?;
+        let mut notices = told::notices(&py.detach(|| self.progress_now()));
+        notices.extend(self.lock_failure().as_ref().map(ToString::to_string));
+        Ok(notices)
+    }
+
+    /// Whether nothing can be sent any more.
+    #[getter]
+    fn closed(&self) -> bool {
+        let is_over = |running: &Mutex<Option<_>>| running.try_lock().is_ok_and(|running| running.is_none());
+        self.running.if_here().is_none_or(is_over)
+    }
+
+    /// Sends what is on its way and ends it. Raises what had ended it before, unless that was raised already.
+    fn close(&self, py: Python<'_>) -> PyResult<()> {
+        let finished = py.detach(|| {
+            let running = self.lock().and_then(|mut running| running.take());
+            running.map_or(Ok(()), |running| self.finish(running))
+        });
+        finished.map_err(|error| raised(&error))
+    }
+
+    fn __enter__(this: Py<Self>) -> Py<Self> {
+        this
+    }
+
+    #[pyo3(signature = (*raised))]
+    fn __exit__(&self, py: Python<'_>, raised: &Bound<'_, PyTuple>) -> PyResult<()> {
+        let closed = self.close(py);
+        // What is raised inside is what went wrong first.
+        let is_raised = raised.get_item(0).is_ok_and(|kind| !kind.is_none());
+        if is_raised { Ok(()) } else { closed }
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<posewire.Streamer to {}>", self.urls.join(", "))
+    }
+}
+
+/// Sections by their names, in the order of [`Section::ALL`], in which one follows what it needs.
+fn named_sections<'py>(given: Option<&Bound<'py, PyDict>>) -> PyResult<Vec<(Section, Bound<'py, PyAny>)>> {
+    let mut sections = given
+        .into_iter()
+        .flatten()
+        .map(named_section)
+        .collect::<PyResult<Vec<_>>>()?;
+    sections.sort_by_key(|(section, _)| *section);
+    Ok(sections)
+}
+
+fn named_section<'py>(
+    (name, numbers): (Bound<'py, PyAny>, Bound<'py, PyAny>),
+) -> PyResult<(Section, Bound<'py, PyAny>)> {
+    let name = name.extract::<String>()?;
+    if UNSENDABLE.contains(&name.as_str()) {
+        return Err(usage(
+            format!("{name} cannot be sent: neither MXTP nor NatNet has a place for them"),
+            "leave them out; files hold them",
+        ));
+    }
+    Ok((named(&[name])?[0], numbers))
+}
+
+/// What a frame of a file can have besides sections, and no protocol carries.
+const UNSENDABLE: [&str; 2] = ["contacts", "events"];
