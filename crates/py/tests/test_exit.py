@@ -89,6 +89,8 @@ def cycle():
     with posewire.listen("mxtp://127.0.0.1:0") as stream:
         with posewire.streamer(stream.url) as streamer:
             streamer.send(*STILL)
+            # With the second it is known that the first is complete.
+            streamer.send(*STILL)
             assert asyncio.run(first(stream)).sample == 0
 
 
