@@ -2,6 +2,7 @@
 
 use crate::error::{exception, raised, usage};
 use crate::listen::arguments::texts;
+use crate::number::Whole;
 use crate::process::Opened;
 use posewire::capture::Format;
 use posewire::endpoint::{Endpoint, FileFormat};
@@ -63,7 +64,7 @@ impl Recorder {
         urls: &Bound<'_, PyTuple>,
         path: PathBuf,
         overwrite: bool,
-        split_megabytes: Option<i64>,
+        split_megabytes: Option<Whole>,
     ) -> PyResult<Self> {
         let urls = texts(urls)?;
         if urls.is_empty() {
@@ -171,16 +172,8 @@ fn refuse(path: &Path) -> PyResult<()> {
 }
 
 /// Bytes of a file at most.
-fn split(megabytes: i64) -> PyResult<u64> {
-    let bytes = u64::try_from(megabytes)
-        .ok()
-        .filter(|megabytes| (1..=1_000_000).contains(megabytes));
-    bytes.map(|megabytes| megabytes * 1_000_000).ok_or_else(|| {
-        usage(
-            format!("expected 1 to 1000000 as split_megabytes, found {megabytes}"),
-            "leave it out for one file",
-        )
-    })
+fn split(megabytes: Whole) -> PyResult<u64> {
+    Ok(megabytes.within("split_megabytes", 1..=1_000_000)? * 1_000_000)
 }
 
 fn start(endpoints: &[Endpoint], path: &Path, options: RecordOptions) -> posewire::Result<Recorder> {

@@ -2,6 +2,7 @@
 
 use super::inbox::Keeping;
 use crate::error::{raised, usage};
+use crate::number::Whole;
 use posewire::Error;
 use posewire::endpoint::Endpoint;
 use posewire::source::PlaybackOptions;
@@ -62,11 +63,8 @@ fn is_of_any_port(endpoint: &Endpoint) -> bool {
 }
 
 /// How samples are kept.
-pub(super) fn keeping(capacity: i64, stale_after: f64, lost_after: f64) -> PyResult<Keeping> {
-    let Some(capacity) = usize::try_from(capacity).ok().filter(|capacity| *capacity > 0) else {
-        let message = format!("expected a number of samples above 0 as capacity, found {capacity}");
-        return Err(usage(message, "leave it out for 8192"));
-    };
+pub(super) fn keeping(capacity: Whole, stale_after: f64, lost_after: f64) -> PyResult<Keeping> {
+    let capacity = capacity.within("capacity", 1..=MOST_CAPACITY)?;
     if stale_after > lost_after {
         let message =
             format!("expected stale_after to be no longer than lost_after, found {stale_after} and {lost_after}");
@@ -152,3 +150,6 @@ fn unheeded(name: &str, what: &str, found: &Endpoint) -> PyErr {
         format!("leave {name}= out"),
     )
 }
+
+/// Days of a suit's samples.
+const MOST_CAPACITY: usize = 100_000_000;

@@ -8,6 +8,7 @@ mod numbers;
 mod stream;
 
 use crate::error::raised;
+use crate::number::Whole;
 use crate::process::Opened;
 pub(crate) use bell::Bell;
 use inbox::Inbox;
@@ -32,13 +33,14 @@ pub(crate) use stream::Stream;
 ///
 /// Raises UsageError for arguments that make no sense or that no url heeds, NetworkError and ReadError as the command line does.
 #[pyfunction]
-#[pyo3(signature = (*urls, capacity = 8192, on_overflow = "raise", stale_after = 0.1, lost_after = 1.0, r#loop = false, speed = 1.0,
-    only = None))]
+#[pyo3(signature = (*urls, capacity = Whole::of(8192), on_overflow = "raise", stale_after = 0.1, lost_after = 1.0, r#loop = false,
+    speed = 1.0, only = None),
+    text_signature = "(*urls, capacity=8192, on_overflow='raise', stale_after=0.1, lost_after=1.0, loop=False, speed=1.0, only=None)")]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub(crate) fn listen(
     py: Python<'_>,
     urls: &Bound<'_, PyTuple>,
-    capacity: i64,
+    capacity: Whole,
     on_overflow: &str,
     stale_after: f64,
     lost_after: f64,
