@@ -91,9 +91,7 @@ def natnetsdk_content(frame):
         "marker_sets": [[markers.model_name.decode(), markers.marker_pos_list] for markers in sets],
         "other_markers": frame.legacy_other_markers.marker_pos_list,
         "rigid_bodies": [[body.id_num, body.pos, body.rot] for body in frame.rigid_body_data.rigid_body_list],
-        "labeled_markers": [
-            [marker.id_num, marker.pos] for marker in frame.labeled_marker_data.labeled_marker_list
-        ],
+        "labeled_markers": [[marker.id_num, marker.pos] for marker in frame.labeled_marker_data.labeled_marker_list],
         "timestamp": frame.suffix_data.timestamp,
     }
 

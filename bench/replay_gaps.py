@@ -10,7 +10,10 @@ def main():
     first, second = (datagrams(path) for path in sys.argv[1:])
     gaps = [times(recording) for recording in (first, second)]
     differences = sorted(abs(after - before) / 1e6 for before, after in zip(*gaps)) or [0.0]
-    place = lambda share: differences[min(int(len(differences) * share), len(differences) - 1)]
+
+    def place(share):
+        return differences[min(int(len(differences) * share), len(differences) - 1)]
+
     same = [payload for _, payload in first] == [payload for _, payload in second]
     spread = {"p50": place(0.5), "p99": place(0.99), "max": differences[-1]}
     print(json.dumps({"datagrams": len(first), "same": same, "gaps_ms": spread}))

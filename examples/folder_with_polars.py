@@ -2,11 +2,11 @@
 
     python folder_with_polars.py takes/
 
-Without a folder, three takes of the built-in walker are made first.
+Without a folder, three takes of the built-in walker are made in a temporary one, which is gone afterwards.
 """
 
+import argparse
 import pathlib
-import sys
 import tempfile
 
 import polars as pl
@@ -21,6 +21,8 @@ def read(folder):
         take = posewire.read(path)
         table = pl.DataFrame(take.to_arrow(["position"]))
         tables.append(table.with_columns(pl.lit(path.name).alias("take"), pl.lit(take.rate).alias("rate")))
+    if not tables:
+        raise SystemExit(f"{folder}: there is no .mvnx file")
     return pl.concat(tables)
 
 
@@ -41,10 +43,17 @@ def walks(folder):
         take.write(pathlib.Path(folder) / f"walk_{seconds}.mvnx")
 
 
+def main():
+    arguments = argparse.ArgumentParser(description="Asks a whole folder of takes who walked how far and how fast.")
+    arguments.add_argument("folder", nargs="?", help="with .mvnx files; three walks, made for it, if left out")
+    folder = arguments.parse_args().folder
+    if folder:
+        print(distances(read(folder)))
+        return
+    with tempfile.TemporaryDirectory(prefix="posewire_") as made:
+        walks(made)
+        print(distances(read(made)))
+
+
 if __name__ == "__main__":
-    if len(sys.argv) > 1:
-        print(distances(read(sys.argv[1])))
-    else:
-        with tempfile.TemporaryDirectory() as folder:
-            walks(folder)
-            print(distances(read(folder)))
+    main()

@@ -2,10 +2,11 @@
 
     python retarget.py mxtp://0.0.0.0:9763
 
-Without a url the built-in walker performs, for a second.
+Without a url the built-in walker performs, for a second. Ctrl-C ends it.
 """
 
-import sys
+import argparse
+import contextlib
 import time
 
 import numpy as np
@@ -29,25 +30,29 @@ def elbow(frame):
     return 2 * np.arctan2(np.linalg.norm(turn[1:]), abs(turn[0]))
 
 
-def main(url="synthetic:walk", seconds=float("inf")):
-    end = time.monotonic() + seconds
-    with posewire.listen(url) as stream:
-        due = time.monotonic()
-        while due < end:
-            frame = stream.latest(timeout=0.5)
-            if frame is None or frame.state == posewire.LOST:
-                print("hold still: no pose", flush=True)
-            else:
-                # Here the robot is told; a stale pose is the moment to slow down.
-                print(
-                    f"{frame.sample:6} {frame.age * 1000:5.1f} ms {frame.state:5} elbow {np.degrees(elbow(frame)):6.1f} deg"
-                )
-            due = max(due + 1 / RATE, time.monotonic() - 1)
-            time.sleep(max(0, due - time.monotonic()))
+def follow(stream, seconds):
+    """Tells the pose 50 times a second, for so long."""
+    start = time.monotonic()
+    for turn in range(int(seconds * RATE)):
+        time.sleep(max(0, start + turn / RATE - time.monotonic()))
+        frame = stream.latest(timeout=0.5)
+        if frame is None or frame.state == posewire.LOST:
+            print("hold still: no pose", flush=True)
+            continue
+        # Here the robot is told; a stale pose is the moment to slow down.
+        bent = np.degrees(elbow(frame))
+        print(f"{frame.sample:6} {frame.age * 1000:5.1f} ms {frame.state:5} elbow {bent:6.1f} deg")
+
+
+def main():
+    arguments = argparse.ArgumentParser(description="Follows the newest pose 50 times a second.")
+    arguments.add_argument(
+        "url", nargs="?", help="as mxtp://0.0.0.0:9763; the built-in walker, for a second, if left out"
+    )
+    given = arguments.parse_args()
+    with posewire.listen(given.url or "synthetic:walk") as stream, contextlib.suppress(KeyboardInterrupt):
+        follow(stream, seconds=86_400 if given.url else 1)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 1:
-        main(sys.argv[1])
-    else:
-        main(seconds=1)
+    main()

@@ -4,6 +4,7 @@ use crate::array;
 use crate::section::{self, missing, of_frame, values};
 use crate::skeleton::Skeleton;
 use posewire_motion::{Per, Section};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -278,5 +279,19 @@ impl Frame {
     fn __repr__(&self) -> String {
         let (name, sample) = (&self.frame.subject.name, self.frame.sample);
         format!("<posewire.Frame {name:?} sample {sample}>")
+    }
+
+    fn __copy__(this: Py<Self>) -> Py<Self> {
+        this
+    }
+
+    fn __deepcopy__(this: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        this
+    }
+
+    #[staticmethod]
+    fn __reduce__() -> PyResult<()> {
+        let message = "a frame cannot be pickled: its arrays can";
+        Err(PyTypeError::new_err(message))
     }
 }

@@ -8,7 +8,7 @@ use crate::skeleton::Skeleton;
 use crate::write::{self, Saved};
 use posewire::file::Recording;
 use posewire_motion::Section;
-use pyo3::exceptions::PyIndexError;
+use pyo3::exceptions::{PyIndexError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// A recorded take of one subject. Nothing changes it.
 ///
 /// Metres, radians, seconds; right-handed, X forward, Y left, Z up; quaternions w, x, y, z; NaN where nothing was tracked.
-#[pyclass(frozen, module = "posewire")]
+#[pyclass(frozen, weakref, module = "posewire")]
 #[derive(Clone)]
 pub(crate) struct Take {
     pub(crate) recording: Arc<Recording>,
@@ -317,5 +317,20 @@ impl Take {
         let (take, segments) = (self.take(), self.take().subject.skeleton.segments.len());
         let (name, samples, rate) = (&take.subject.name, take.len(), take.rate);
         format!("<posewire.Take {name:?}: {samples} samples at {rate} Hz, {segments} segments>")
+    }
+
+    fn __copy__(this: Py<Self>) -> Py<Self> {
+        this
+    }
+
+    fn __deepcopy__(this: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        this
+    }
+
+    #[staticmethod]
+    fn __reduce__() -> PyResult<()> {
+        let message =
+            "a take cannot be pickled: take.write(\"walk.mvnx\") and posewire.read() carry it, and so do its arrays";
+        Err(PyTypeError::new_err(message))
     }
 }

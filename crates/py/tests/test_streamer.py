@@ -41,7 +41,11 @@ def with_head(rows, *numbers):
     [
         (np.zeros((23, 3)), with_head(STILL, 0, 0, 0, 0), r"length 1 as the orientation of Head, found \[0, 0, 0, 0\]"),
         (np.zeros((23, 3)), with_head(STILL, 3, 4, 0, 0), "of length 5.0000"),
-        (np.zeros((23, 3)), with_head(STILL, np.nan, 0, 0, 1), r"nothing but NaN as the orientation of Head, found \[nan"),
+        (
+            np.zeros((23, 3)),
+            with_head(STILL, np.nan, 0, 0, 1),
+            r"nothing but NaN as the orientation of Head, found \[nan",
+        ),
         (with_head(np.zeros((23, 3)), 0, np.inf, 0), STILL, r"as the position of Head, found \[0, inf, 0\]"),
         (with_head(np.zeros((23, 3)), 0, 0, 1e39), STILL, "which 32 bits can hold, as the position of Head"),
         (with_head(np.zeros((23, 3)), 0, 0, np.nan), STILL, "nothing but NaN as the position of Head"),
@@ -112,7 +116,11 @@ CENTER = ("center_of_mass", "center_of_mass_velocity", "center_of_mass_accelerat
 @pytest.mark.parametrize(
     ("types", "sections", "message"),
     [
-        (None, (*POSE, "velocity"), "velocity is not sent: datagram type 21 carries it, and those that are sent are 02,12"),
+        (
+            None,
+            (*POSE, "velocity"),
+            "velocity is not sent: datagram type 21 carries it, and those that are sent are 02,12",
+        ),
         (None, ("sensor_orientation",), 'types="02,12,13,20,23,24,25" sends it'),
         ("20", POSE, "position is not sent: datagram type 01,02,05,21 carries it"),
         ("all", (*POSE, "velocity"), "type 21 carries it only together with acceleration"),
@@ -158,7 +166,9 @@ def test_half_of_what_is_sent_together_is_refused(walk):
     orientation, angles = walk.orientation[0].copy(), walk.ergonomic_angles()[0].copy()
     orientation[6] = angles[2] = np.nan
     with posewire.streamer("mxtp://127.0.0.1:9", types="all") as streamer:
-        with pytest.raises(posewire.UsageError, match="expected the orientation of Head beside its position, found none"):
+        with pytest.raises(
+            posewire.UsageError, match="expected the orientation of Head beside its position, found none"
+        ):
             streamer.send(walk.position[0], orientation)
         with pytest.raises(posewire.UsageError, match="all the ergonomic angles or none"):
             streamer.send(joint_angles=walk.joint_angles()[0], ergonomic_angles=angles)

@@ -58,8 +58,12 @@ def tcp_packets():
 
     def segment(begin, end, flags="PA"):
         number = (first + 1 + begin) & 0xFFFFFFFF
-        return Ether() / IP(src=SENDER, dst=RECEIVER) / TCP(
-            sport=50200, dport=9763, seq=number, ack=1, flags=flags) / Raw(stream[begin:end])
+        return (
+            Ether()
+            / IP(src=SENDER, dst=RECEIVER)
+            / TCP(sport=50200, dport=9763, seq=number, ack=1, flags=flags)
+            / Raw(stream[begin:end])
+        )
 
     opening = Ether() / IP(src=SENDER, dst=RECEIVER) / TCP(sport=50200, dport=9763, seq=first, flags="S")
     segments = [segment(begin, begin + 1000) for begin in range(0, len(stream), 1000)]

@@ -28,10 +28,14 @@ for frame in range(file.FrameCount):
         turn = joints[name].RotationWorld * at_rest[name]
         turns[name].append([turn.w, turn.x, turn.y, turn.z])
 
-print(json.dumps({
-    "frames": file.FrameCount,
-    "rate": 1 / file.FrameTime,
-    "names": list(joints),
-    "joints": places,
-    "turns": turns,
-}))
+print(
+    json.dumps(
+        {
+            "frames": file.FrameCount,
+            "rate": 1 / file.FrameTime,
+            "names": list(joints),
+            "joints": places,
+            "turns": turns,
+        }
+    )
+)

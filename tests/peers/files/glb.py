@@ -108,11 +108,15 @@ def rest_place(node):
     return place + rest_place(PARENTS[node]) if node in PARENTS else place
 
 
-print(json.dumps({
-    "version": file.asset.version,
-    "names": [node.name for node in file.nodes],
-    "animations": [animation.name for animation in file.animations],
-    "channels": len(TRACKS),
-    "skin": skin(),
-    "nodes": {name: played(name) for name in wanted},
-}))
+print(
+    json.dumps(
+        {
+            "version": file.asset.version,
+            "names": [node.name for node in file.nodes],
+            "animations": [animation.name for animation in file.animations],
+            "channels": len(TRACKS),
+            "skin": skin(),
+            "nodes": {name: played(name) for name in wanted},
+        }
+    )
+)

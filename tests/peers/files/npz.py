@@ -18,13 +18,17 @@ def plain(values):
     return [None if value != value else float(value) for value in values.ravel()]
 
 
-print(json.dumps({
-    "arrays": {name: [str(file[name].dtype), list(file[name].shape)] for name in file.files},
-    "subject": str(file["subject"]),
-    "rate": float(file["rate"]),
-    "axes": str(file["axes"]),
-    "unit": str(file["unit"]),
-    "segments": [str(name) for name in file["segment_names"]],
-    "samples": [int(sample) for sample in file["sample"][:3]],
-    "sections": {name: plain(file[name]) for name in sections},
-}))
+print(
+    json.dumps(
+        {
+            "arrays": {name: [str(file[name].dtype), list(file[name].shape)] for name in file.files},
+            "subject": str(file["subject"]),
+            "rate": float(file["rate"]),
+            "axes": str(file["axes"]),
+            "unit": str(file["unit"]),
+            "segments": [str(name) for name in file["segment_names"]],
+            "samples": [int(sample) for sample in file["sample"][:3]],
+            "sections": {name: plain(file[name]) for name in sections},
+        }
+    )
+)

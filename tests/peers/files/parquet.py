@@ -17,14 +17,18 @@ table = dataset.to_table()
 file = pyarrow.parquet.ParquetFile(dataset.files[0])
 metadata = {key.decode(): value.decode() for key, value in (file.metadata.metadata or {}).items()}
 
-print(json.dumps({
-    "rows": table.num_rows,
-    "row_groups": file.metadata.num_row_groups,
-    "names": table.column_names,
-    "types": {name: str(table.schema.field(name).type) for name in table.column_names},
-    "subjects": sorted(set(table["subject"].to_pylist())),
-    "metadata": metadata,
-    "columns": {
-        name: [None if value is None else str(value) for value in table[name].to_pylist()] for name in columns
-    },
-}))
+print(
+    json.dumps(
+        {
+            "rows": table.num_rows,
+            "row_groups": file.metadata.num_row_groups,
+            "names": table.column_names,
+            "types": {name: str(table.schema.field(name).type) for name in table.column_names},
+            "subjects": sorted(set(table["subject"].to_pylist())),
+            "metadata": metadata,
+            "columns": {
+                name: [None if value is None else str(value) for value in table[name].to_pylist()] for name in columns
+            },
+        }
+    )
+)

@@ -42,10 +42,14 @@ def column(name):
     return [plain(table.getRowAtIndex(row).getElt(0, place)) for row in range(table.getNumRows())]
 
 
-print(json.dumps({
-    "rows": table.getNumRows(),
-    "labels": labels,
-    "times": list(table.getIndependentColumn()),
-    "metadata": metadata,
-    "columns": {name: column(name) for name in wanted},
-}))
+print(
+    json.dumps(
+        {
+            "rows": table.getNumRows(),
+            "labels": labels,
+            "times": list(table.getIndependentColumn()),
+            "metadata": metadata,
+            "columns": {name: column(name) for name in wanted},
+        }
+    )
+)

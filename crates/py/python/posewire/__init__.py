@@ -11,17 +11,19 @@ Metres, radians, seconds; right-handed, X forward, Y left, Z up; quaternions w, 
 nothing was tracked.
 """
 
+from __future__ import annotations
+
 from ._errors import (
     ClosedError,
     DecodeError,
     Error,
     MissingError,
     NetworkError,
-    OverflowError,
     ReadError,
     UsageError,
     WriteError,
 )
+from ._errors import OverflowError as OverflowError
 from ._posewire import (
     Frame,
     Recorder,
@@ -39,16 +41,23 @@ from ._posewire import (
     streamer,
 )
 
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Final
+
+# OverflowError is not among them: `from posewire import *` must not hide Python's own.
 __all__ = [
     "ClosedError",
     "DecodeError",
     "Error",
     "Frame",
+    "LIVE",
+    "LOST",
     "MissingError",
     "NetworkError",
-    "OverflowError",
     "ReadError",
     "Recorder",
+    "STALE",
     "Saved",
     "Skeleton",
     "Stream",
@@ -66,5 +75,6 @@ __all__ = [
 ]
 
 #: The states of a live sample, by its age.
-LIVE, STALE, LOST = "LIVE", "STALE", "LOST"
-__all__ += ["LIVE", "LOST", "STALE"]
+LIVE: Final = "LIVE"
+STALE: Final = "STALE"
+LOST: Final = "LOST"

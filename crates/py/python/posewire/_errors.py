@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import builtins
+
 
 class Error(Exception):
     """Something went wrong; str() has the message and, on a line of its own, the help."""
@@ -44,8 +46,8 @@ class MissingError(Error, AttributeError, LookupError):
     """A take, a sample or a file does not have what was asked for."""
 
 
-class OverflowError(Error):
-    """Samples came faster than they were taken, and some are gone."""
+class OverflowError(Error, builtins.OverflowError):
+    """Samples came faster than they were taken, and some are gone; `except OverflowError` catches it by Python's name too."""
 
 
 class ClosedError(Error):

@@ -1,5 +1,7 @@
 """The extension module. Everything public stands in posewire; docstrings are with the objects themselves."""
 
+# Classes whose constructor takes what nothing is are made by functions alone.
+
 from collections.abc import AsyncIterator, Callable, Iterator, Sequence
 from os import PathLike
 from types import TracebackType
@@ -7,21 +9,45 @@ from typing import Any, Literal, final
 
 import numpy as np
 import numpy.typing as npt
+from typing_extensions import Buffer, Never
 
 _Floats = npt.NDArray[np.float64]
 _Path = str | PathLike[str]
 _Progress = Callable[[int, int], object]
 _Sequence = Literal["zxy", "xzy"]
 
+__all__ = [
+    "Column",
+    "Frame",
+    "Recorder",
+    "Saved",
+    "Skeleton",
+    "Stream",
+    "Streamer",
+    "Table",
+    "Take",
+    "__version__",
+    "decode",
+    "listen",
+    "main",
+    "read",
+    "read_all",
+    "streamer",
+]
+
 __version__: str
 
 @final
 class Column:
+    def __new__(cls, _: Never, /) -> Column: ...
     @property
     def __array_interface__(self) -> dict[str, Any]: ...
 
 @final
 class Skeleton:
+    def __new__(
+        cls, segments: Sequence[str], parents: Sequence[int | None] | None = None, origins: npt.ArrayLike | None = None
+    ) -> Skeleton: ...
     @staticmethod
     def standard(props: int = 0, fingers: bool = False, sensors: Sequence[str] | None = None) -> Skeleton: ...
     @property
@@ -39,9 +65,12 @@ class Skeleton:
     @property
     def origins(self) -> _Floats: ...
     def __len__(self) -> int: ...
+    def __copy__(self) -> Skeleton: ...
+    def __deepcopy__(self, _memo: object, /) -> Skeleton: ...
 
 @final
 class Table:
+    def __new__(cls, _: Never, /) -> Table: ...
     @property
     def columns(self) -> list[str]: ...
     def __len__(self) -> int: ...
@@ -49,6 +78,7 @@ class Table:
 
 @final
 class Saved:
+    def __new__(cls, _: Never, /) -> Saved: ...
     @property
     def files(self) -> list[PathLike[str]]: ...
     @property
@@ -60,6 +90,7 @@ class Saved:
 
 @final
 class Take:
+    def __new__(cls, _: Never, /) -> Take: ...
     @property
     def subject(self) -> str: ...
     @property
@@ -138,9 +169,12 @@ class Take:
         bvh_t_pose: bool = False,
         micro_units: bool = False,
     ) -> Saved: ...
+    def __copy__(self) -> Take: ...
+    def __deepcopy__(self, _memo: object, /) -> Take: ...
 
 @final
 class Frame:
+    def __new__(cls, _: Never, /) -> Frame: ...
     @property
     def subject(self) -> str: ...
     @property
@@ -206,9 +240,12 @@ class Frame:
     @property
     def center_of_mass_acceleration(self) -> _Floats: ...
     def __getitem__(self, section: str, /) -> _Floats: ...
+    def __copy__(self) -> Frame: ...
+    def __deepcopy__(self, _memo: object, /) -> Frame: ...
 
 @final
 class Stream:
+    def __new__(cls, _: Never, /) -> Stream: ...
     @property
     def url(self) -> str: ...
     @property
@@ -244,6 +281,7 @@ class Bell:
 
 @final
 class Streamer:
+    def __new__(cls, _: Never, /) -> Streamer: ...
     @property
     def urls(self) -> list[str]: ...
     @property
@@ -322,5 +360,5 @@ def streamer(
     names: Sequence[str] | None = None,
     types: str | None = None,
 ) -> Streamer: ...
-def decode(data: bytes, protocol: Literal["mxtp", "natnet"] | None = None, version: str = "4.1") -> dict[str, Any]: ...
+def decode(data: Buffer, protocol: Literal["mxtp", "natnet"] | None = None, version: str = "4.1") -> dict[str, Any]: ...
 def main(arguments: Sequence[str]) -> int: ...
