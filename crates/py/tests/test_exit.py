@@ -59,7 +59,7 @@ def test_a_program_ends_with_everything_open(program, tmp_path):
 
 
 def test_a_recording_is_complete_when_python_ends(tmp_path):
-    program = f"""
+    program = """
 import posewire, numpy, sys
 recorder = posewire.Recorder("mxtp://127.0.0.1:0", path=sys.argv[1])
 streamer = posewire.streamer(recorder.urls[0], names=["Ada"])

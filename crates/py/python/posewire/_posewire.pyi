@@ -17,6 +17,7 @@ _Progress = Callable[[int, int], object]
 _Sequence = Literal["zxy", "xzy"]
 
 __all__ = [
+    "Bell",
     "Column",
     "Frame",
     "Recorder",
