@@ -293,7 +293,9 @@ fn the_same_bytes_twice_are_one_frame_and_the_same_number_twice_are_two() {
 #[test]
 fn a_frame_after_a_newer_one_is_late_whether_or_not_it_came_before() {
     let mut harness = Harness::connected(ClientOptions::new(server_address(), Mode::Unicast));
-    [1, 3, 2, 1, 4].map(|number| harness.answer(&boxed(number)));
+    for number in [1, 3, 2, 1, 4] {
+        harness.answer(&boxed(number));
+    }
     let late = harness.drain().0.into_iter().filter_map(|event| match event {
         Event::Frame(received) => Some((received.frame.number, received.late)),
         _ => None,
