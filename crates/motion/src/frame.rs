@@ -21,6 +21,8 @@ pub struct Frame {
     pub time: Duration,
     /// When it arrived here.
     pub received: Option<Stamp>,
+    /// Whether a newer sample of the subject had arrived before it. A take does not keep that.
+    pub late: bool,
     /// The time of day, UTC, where the source says.
     pub timecode: Option<Timecode>,
 
@@ -75,6 +77,7 @@ impl Frame {
             sample: 0,
             time: Duration::ZERO,
             received: None,
+            late: false,
             timecode: None,
             position: Vec::new(),
             orientation: Vec::new(),
@@ -106,6 +109,7 @@ impl Frame {
             sample,
             time,
             received,
+            late,
             timecode,
             position,
             orientation,
@@ -127,7 +131,7 @@ impl Frame {
             markers,
             events,
         } = self;
-        (*sample, *time) = (0, Duration::ZERO);
+        (*sample, *time, *late) = (0, Duration::ZERO, false);
         (*received, *timecode, *center_of_mass) = (None, None, None);
         for rotations in [orientation, sensor_orientation] {
             rotations.clear();
@@ -251,7 +255,7 @@ mod tests {
         let mut frame = Frame::new(subject.clone());
         frame.sample = 7;
         frame.time = Duration::from_secs(1);
-        frame.received = Some(Stamp(1));
+        (frame.received, frame.late) = (Some(Stamp(1)), true);
         frame.timecode = Some(Timecode::from_milliseconds(1));
         frame.orientation = vec![Some(DQuat::IDENTITY); 23];
         frame.joint_angles_xzy = vec![None; 22];

@@ -23,7 +23,7 @@ use std::time::Duration;
 /// of late; what these are shows when a character's second sample begins. When one of them does not come, the frame
 /// follows without it: as soon as more than four samples are open, after [`AssemblerOptions::close_after`], or with
 /// [`finish`](Self::finish). Frames of a character come in the order of their samples, except for a sample of which
-/// nothing had arrived when a newer one was done.
+/// nothing had arrived when a newer one was done: that is [`late`](Frame::late).
 ///
 /// Memory is bounded whatever arrives: 64 characters, four open samples for each of them with 256 KiB of parts of split
 /// messages, and 1024 events that wait to be polled for.

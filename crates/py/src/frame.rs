@@ -97,6 +97,12 @@ impl Frame {
         joints.map(|joint| joint.name.clone()).collect()
     }
 
+    /// Samples a second; None where the source does not say.
+    #[getter]
+    fn rate(&self) -> Option<f64> {
+        self.frame.subject.rate
+    }
+
     /// Names of the sections that the sample has.
     #[getter]
     fn sections(&self) -> Vec<&'static str> {
@@ -126,6 +132,12 @@ impl Frame {
     #[getter]
     fn received(&self) -> Option<i64> {
         self.frame.received.map(posewire_motion::Stamp::nanoseconds)
+    }
+
+    /// Whether a newer sample of its subject had arrived before it.
+    #[getter]
+    fn late(&self) -> bool {
+        self.frame.late
     }
 
     /// For how many seconds it has been here by now; None for one that did not come live.
@@ -210,13 +222,55 @@ impl Frame {
         self.array(py, section::ergonomic_angles(sequence)?)
     }
 
+    /// From the sensors' axes to the world's: (sensors, 4), w first.
+    #[getter]
+    fn sensor_orientation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.array(py, Section::SensorOrientation)
+    }
+
+    /// Acceleration of the sensors without gravity, in the world, m/s2: (sensors, 3).
+    #[getter]
+    fn sensor_free_acceleration<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.array(py, Section::SensorFreeAcceleration)
+    }
+
+    /// Acceleration of the sensors with gravity, in the sensor's axes, m/s2: (sensors, 3).
+    #[getter]
+    fn sensor_acceleration<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.array(py, Section::SensorAcceleration)
+    }
+
+    /// Angular velocity of the sensors, in the sensor's axes, rad/s: (sensors, 3).
+    #[getter]
+    fn sensor_angular_velocity<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.array(py, Section::SensorAngularVelocity)
+    }
+
+    /// Magnetic field in the sensor's axes, in units of the field at calibration: (sensors, 3).
+    #[getter]
+    fn sensor_magnetic_field<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.array(py, Section::SensorMagneticField)
+    }
+
     /// The body's centre of mass, m: (3,).
     #[getter]
     fn center_of_mass<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.array(py, Section::CenterOfMass)
     }
 
-    /// Any section by its name, those of the sensors too.
+    /// Its velocity, m/s: (3,).
+    #[getter]
+    fn center_of_mass_velocity<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.array(py, Section::CenterOfMassVelocity)
+    }
+
+    /// Its acceleration, m/s2: (3,).
+    #[getter]
+    fn center_of_mass_acceleration<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.array(py, Section::CenterOfMassAcceleration)
+    }
+
+    /// A section by its name, as `sections` lists them.
     fn __getitem__<'py>(&self, py: Python<'py>, section: String) -> PyResult<Bound<'py, PyAny>> {
         let section = section::named(&[section])?[0];
         self.array(py, section)

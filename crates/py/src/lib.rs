@@ -29,6 +29,7 @@ mod error;
 mod frame;
 mod listen;
 mod number;
+mod process;
 mod read;
 mod recorder;
 mod section;
@@ -56,7 +57,7 @@ mod _posewire {
     #[pymodule_export]
     use super::frame::Frame;
     #[pymodule_export]
-    use super::listen::{Stream, listen};
+    use super::listen::{Bell, Stream, listen};
     #[pymodule_export]
     use super::read::{read, read_all};
     #[pymodule_export]

@@ -1,13 +1,18 @@
 //! Recordings of live streams.
 
-use crate::error::{raised, usage};
+use crate::error::{exception, raised, usage};
+use crate::listen::arguments::texts;
+use crate::number::Whole;
+use crate::process::Opened;
+use posewire::capture::Format;
+use posewire::endpoint::{Endpoint, FileFormat};
 use posewire::sink::{RecordOptions, RecordProgress, RecordSink};
 use posewire::source::PlaybackOptions;
 use posewire::stop::Stop;
 use posewire::{Session, Source};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Records live streams into an MCAP file from the moment it is made: every datagram as it came, and the poses in them.
@@ -16,12 +21,38 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// file a tenth of a second later in any case.
 ///
 /// Raises WriteError when the file is there and `overwrite` is not set, or cannot be written; NetworkError and UsageError for urls.
-#[pyclass(frozen, module = "posewire")]
+#[pyclass(frozen, weakref, module = "posewire")]
 pub(crate) struct Recorder {
     urls: Vec<String>,
+    recording: Opened<Recording>,
+}
+
+/// What runs.
+struct Recording {
     progress: Arc<Mutex<RecordProgress>>,
     stop: Stop,
     session: Mutex<Option<Session>>,
+}
+
+impl Recording {
+    /// Whether its file is complete, or about to be.
+    fn has_ended(&self) -> bool {
+        self.session.lock().unwrap_or_else(PoisonError::into_inner).is_none()
+    }
+
+    /// Completes the file. The second time there is nothing to do.
+    fn end(&self) -> posewire::Result<()> {
+        self.stop.stop();
+        let session = self.session.lock().unwrap_or_else(PoisonError::into_inner).take();
+        session.map_or(Ok(()), |session| session.wait().map(drop))
+    }
+}
+
+impl Drop for Recording {
+    fn drop(&mut self) {
+        // So that the file is complete when Python ends; the threads need nothing of Python, and there is nobody to be told.
+        let _ = Python::try_attach(|py| py.detach(|| self.end())).unwrap_or_else(|| self.end());
+    }
 }
 
 #[pymethods]
@@ -33,20 +64,22 @@ impl Recorder {
         urls: &Bound<'_, PyTuple>,
         path: PathBuf,
         overwrite: bool,
-        split_megabytes: Option<u64>,
+        split_megabytes: Option<Whole>,
     ) -> PyResult<Self> {
-        let urls = urls.extract::<Vec<String>>()?;
+        let urls = texts(urls)?;
         if urls.is_empty() {
             return Err(usage(
                 "expected what to record, found nothing",
                 "as in Recorder(\"mxtp://0.0.0.0:9763\", path=\"take.mcap\")",
             ));
         }
+        let endpoints = urls.iter().map(|url| live(url)).collect::<PyResult<Vec<_>>>()?;
+        refuse(&path)?;
         let options = RecordOptions {
-            split: split_megabytes.map(|megabytes| megabytes.saturating_mul(1_000_000)),
+            split: split_megabytes.map(split).transpose()?,
             overwrite,
         };
-        py.detach(|| start(&urls, &path, options))
+        py.detach(|| start(&endpoints, &path, options))
             .map_err(|error| raised(&error))
     }
 
@@ -58,7 +91,12 @@ impl Recorder {
 
     /// How far it has come: a dict of file, files, bytes, datagrams, frames, lost (on this machine) and failure.
     fn progress<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let progress = self.progress.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let recording = self.recording.here()?;
+        let progress = recording
+            .progress
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .clone();
         let told = PyDict::new(py);
         told.set_item("file", &progress.file)?;
         told.set_item("files", progress.files)?;
@@ -72,14 +110,22 @@ impl Recorder {
 
     /// Completes the file and ends it. Raises what kept it from being written.
     fn close(&self, py: Python<'_>) -> PyResult<()> {
-        self.stop.stop();
-        let session = self.session.lock().unwrap_or_else(PoisonError::into_inner).take();
-        let Some(session) = session else { return Ok(()) };
-        py.detach(|| session.wait()).map(drop).map_err(|error| raised(&error))
+        let Some(recording) = self.recording.if_here() else {
+            return Ok(());
+        };
+        py.detach(|| recording.end()).map_err(|error| raised(&error))
     }
 
-    fn __enter__(this: Py<Self>) -> Py<Self> {
-        this
+    fn __enter__(this: PyRef<'_, Self>) -> PyResult<PyRef<'_, Self>> {
+        if this.recording.here()?.has_ended() {
+            let help = "it records once: make another, into another file";
+            return Err(exception(
+                "ClosedError",
+                "the recorder is closed".to_owned(),
+                Some(help.to_owned()),
+            ));
+        }
+        Ok(this)
     }
 
     #[pyo3(signature = (*_raised))]
@@ -92,25 +138,59 @@ impl Recorder {
     }
 }
 
-fn start(urls: &[String], path: &std::path::Path, options: RecordOptions) -> posewire::Result<Recorder> {
-    let open = |url: &String| Source::open(&url.parse()?, &PlaybackOptions::default());
-    let sources = urls.iter().map(open).collect::<posewire::Result<Vec<_>>>()?;
+/// A stream that can be recorded, as `posewire record` has it.
+fn live(url: &str) -> PyResult<Endpoint> {
+    match url.parse() {
+        Ok(Endpoint::File { path, .. }) => Err(usage(
+            format!(
+                "expected a live stream to record, as mxtp://0.0.0.0:9763, found {}",
+                path.display()
+            ),
+            "the file to write is path=; posewire.read gives what a take holds",
+        )),
+        endpoint => endpoint.map_err(|error| raised(&error)),
+    }
+}
+
+/// Refuses to write a recording under a name that says something else, as `posewire record` does.
+fn refuse(path: &Path) -> PyResult<()> {
+    let name = path.to_string_lossy().to_lowercase();
+    let takes = FileFormat::ALL.iter().map(|format| format.ending());
+    let captures = [Format::Pcap, Format::PcapNg].map(Format::ending);
+    let mut endings = captures.into_iter().chain(takes);
+    let Some(other) = endings.find(|ending| name.ends_with(&format!(".{ending}"))) else {
+        return Ok(());
+    };
+    let mcap = path.with_extension("mcap");
+    Err(usage(
+        format!("record writes MCAP files, {} says {other}", path.display()),
+        format!(
+            "path={:?}; what it holds can be converted afterwards",
+            mcap.display().to_string()
+        ),
+    ))
+}
+
+/// Bytes of a file at most.
+fn split(megabytes: Whole) -> PyResult<u64> {
+    Ok(megabytes.within("split_megabytes", 1..=1_000_000)? * 1_000_000)
+}
+
+fn start(endpoints: &[Endpoint], path: &Path, options: RecordOptions) -> posewire::Result<Recorder> {
+    let mut sources = Vec::new();
+    for endpoint in endpoints {
+        sources.extend(Source::open_all(endpoint, &PlaybackOptions::default())?);
+    }
     let endpoints: Vec<_> = sources.iter().map(|source| source.endpoint().clone()).collect();
     let stop = Stop::new();
     let sink = RecordSink::create(path, &endpoints, options, stop.clone())?;
-    Ok(Recorder {
-        urls: endpoints.iter().map(ToString::to_string).collect(),
+    let recording = Recording {
         progress: sink.progress(),
         session: Mutex::new(Some(Session::start(sources, vec![Box::new(sink)], stop.clone()))),
         stop,
+    };
+    Ok(Recorder {
+        urls: endpoints.iter().map(ToString::to_string).collect(),
+        recording: Opened::new("the recorder", recording),
     })
-}
-
-impl Drop for Recorder {
-    fn drop(&mut self) {
-        self.stop.stop();
-        let session = self.session.get_mut().unwrap_or_else(PoisonError::into_inner).take();
-        // So that the file is complete when Python ends; the threads need nothing of Python, and there is nobody to be told.
-        let _ = session.map(Session::wait);
-    }
 }

@@ -1,10 +1,6 @@
-"""Live streams: what is sent arrives, what is lost is told, and everything ends."""
+"""Live streams: what is sent arrives, and what is lost is told."""
 
-import asyncio
-import os
 import signal
-import subprocess
-import sys
 import threading
 
 import numpy as np
@@ -80,55 +76,6 @@ def test_a_played_take_ends_the_loop(walk, tmp_path):
     with posewire.listen(str(tmp_path / "walk.mvnx"), speed=100) as stream:
         assert [frame.sample for frame in stream] == list(range(60))
         assert stream.closed and stream.next() is None
-
-
-def test_samples_come_to_asyncio():
-    async def count(stream, most):
-        samples = []
-        async for frame in stream:
-            samples.append(frame.sample)
-            if len(samples) == most:
-                return samples
-
-    async def both():
-        with posewire.listen("synthetic:walk") as one, posewire.listen("synthetic:walk") as two:
-            return await asyncio.gather(count(one, 30), count(two, 30))
-
-    assert asyncio.run(both()) == [list(range(30))] * 2
-
-
-def test_a_cancelled_task_loses_no_sample():
-    async def run():
-        with posewire.listen("mxtp://127.0.0.1:0") as stream:
-            task = asyncio.ensure_future(anext(aiter(stream)))
-            await asyncio.sleep(0)
-            task.cancel()
-            with pytest.raises(asyncio.CancelledError):
-                await task
-            with posewire.streamer(stream.url) as streamer:
-                streamer.send(np.zeros((23, 3)), np.tile([1, 0, 0, 0], (23, 1)))
-            return (await anext(aiter(stream))).sample
-
-    assert asyncio.run(run()) == 0
-
-
-def test_asyncio_ends_with_a_stream_that_is_closed():
-    async def run():
-        stream = posewire.listen("mxtp://127.0.0.1:0")
-        threading.Timer(0.05, stream.close).start()
-        return [frame async for frame in stream]
-
-    assert asyncio.run(run()) == []
-
-
-def test_closing_ends_a_loop_in_another_thread():
-    stream = posewire.listen("mxtp://127.0.0.1:0")
-    thread = threading.Thread(target=lambda: list(stream))
-    thread.start()
-    stream.close()
-    thread.join(timeout=30)
-    assert not thread.is_alive() and stream.closed
-    stream.close()
 
 
 def test_natnet_serves_and_listens(walk):
@@ -209,38 +156,3 @@ def test_other_threads_run_while_one_waits(walk, looped):
     send(streamer, walk, 2)
     thread.join(timeout=60)
     assert taken[0].sample == 0
-
-
-def test_many_streams_leave_nothing_behind():
-    def used():
-        return len(os.listdir("/proc/self/fd")), len(os.listdir("/proc/self/task"))
-
-    if not os.path.isdir("/proc/self/fd"):
-        pytest.skip("needs /proc")
-    posewire.listen("mxtp://127.0.0.1:0").close()
-    before = used()
-    for _ in range(int(os.environ.get("POSEWIRE_CYCLES", "50"))):
-        with posewire.listen("mxtp://127.0.0.1:0") as stream:
-            with posewire.streamer(stream.url) as streamer:
-                streamer.send(np.zeros((23, 3)), np.tile([1, 0, 0, 0], (23, 1)))
-    assert used() == before
-
-
-@pytest.mark.parametrize(
-    "program",
-    [
-        "stream = posewire.listen('mxtp://127.0.0.1:0')",
-        "stream = posewire.listen('synthetic:walk'); next(stream)",
-        "stream = posewire.listen('mxtp://127.0.0.1:0')\n"
-        "threading.Thread(target=lambda: next(stream), daemon=True).start()",
-        "streamer = posewire.streamer('mxtp+tcp://127.0.0.1:0?mode=listen')",
-        "streamer = posewire.streamer('natnet://127.0.0.1:0?data-port=0')",
-        "recorder = posewire.Recorder('mxtp://127.0.0.1:0', path=sys.argv[1])",
-    ],
-)
-def test_a_program_ends_with_everything_open(program, tmp_path):
-    program = f"import posewire, sys, threading\n{program}\n"
-    ended = subprocess.run(
-        [sys.executable, "-c", program, str(tmp_path / "take.mcap")], timeout=60, capture_output=True
-    )
-    assert (ended.returncode, ended.stderr) == (0, b"")

@@ -109,6 +109,9 @@ impl OpenSample {
 
     /// The frame as it is.
     pub(super) fn into_frame(mut self, subject: &Arc<Subject>) -> Arc<Frame> {
+        if self.overtaken {
+            Arc::make_mut(&mut self.frame).late = true;
+        }
         if !Arc::ptr_eq(&self.frame.subject, subject) {
             Arc::make_mut(&mut self.frame).subject = subject.clone();
         }

@@ -92,6 +92,13 @@ fn a_sample_that_comes_too_late_for_the_order_is_not_lost() {
     let (mut receiver, mut sender) = (Receiver::new(), Sender::new("02"));
     receiver.feed_samples(&mut sender, [0, 1, 2, 4, 3, 5]);
     assert_eq!(receiver.frame_numbers(), [0, 1, 2, 4, 3, 5]);
+    let late = receiver
+        .frames()
+        .iter()
+        .filter(|frame| frame.late)
+        .map(|frame| frame.sample)
+        .collect::<Vec<_>>();
+    assert_eq!(late, [3]);
     let counters = receiver.counters(MessageType::QUATERNION);
     assert_eq!((counters.late, counters.missing, counters.received), (1, 0, 6));
 }

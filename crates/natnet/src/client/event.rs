@@ -65,6 +65,8 @@ pub struct ReceivedFrame {
     pub received: Stamp,
     /// How its number follows those before.
     pub order: FrameOrder,
+    /// Whether a frame with a higher number had come before it: one that is late, or repeats an older one.
+    pub late: bool,
     /// What was unusual about it.
     pub quirks: Quirks,
 }

@@ -54,12 +54,19 @@ pub(super) struct FrameNumbers {
     at: Stamp,
     /// Whether the next frame comes after a pause, in which the server may have begun anew.
     paused: bool,
+    /// How many frames with lower numbers came in a row.
+    behind: u32,
 }
 
 impl FrameNumbers {
     /// Whether there has been a frame.
     pub(super) const fn have_begun(&self) -> bool {
         self.newest.is_some()
+    }
+
+    /// The highest number.
+    pub(super) const fn newest(&self) -> Option<i32> {
+        self.newest
     }
 
     /// The next frame comes after a pause: what it leaves out is missing, but what goes back begins anew.
@@ -104,6 +111,7 @@ impl FrameNumbers {
             _ if (1..=largest_gap).contains(&step) => {
                 counts.missing += u64::from(step.unsigned_abs() - 1);
                 self.newest = Some(number);
+                self.behind = 0;
                 self.seen = self.seen.checked_shl(step.unsigned_abs()).unwrap_or(0) | 1;
                 FrameOrder::Next
             }
@@ -115,11 +123,13 @@ impl FrameNumbers {
         }
     }
 
-    /// Numbers go back where datagrams overtake each other, and where a short recording starts again.
+    /// Numbers go back where datagrams overtake each other, and where a short recording starts again: its stamps tell, or that no
+    /// new number comes any more.
     fn place_behind(&mut self, number: i32, behind: u32, sent_later: bool, counts: &mut FrameCounts) -> FrameOrder {
         let bit = 1 << behind;
         let was_there = self.seen & bit != 0;
-        if sent_later {
+        self.behind += 1;
+        if sent_later || self.behind == BEGUN_ANEW {
             self.begin(number);
             return FrameOrder::Jump;
         }
@@ -133,6 +143,7 @@ impl FrameNumbers {
 
     fn begin(&mut self, number: i32) {
         self.newest = Some(number);
+        self.behind = 0;
         // What came before the first frame is not missing, so it cannot come late.
         self.seen = u64::MAX;
     }
@@ -145,6 +156,8 @@ fn largest_gap(passed: Duration) -> i32 {
 }
 
 const LARGEST_GAP: i32 = 1000;
+/// So many lower numbers in a row are no late frames.
+const BEGUN_ANEW: u32 = 8;
 const FASTEST_PER_MILLISECOND: u128 = 1;
 
 #[cfg(test)]
@@ -193,6 +206,14 @@ mod tests {
         assert_eq!((counts.missing, counts.jumps), (0, 1));
         let (orders, _) = run([(5000, None), (0, None), (1, None)]);
         assert_eq!(orders[1..], [FrameOrder::Jump, FrameOrder::Next]);
+    }
+
+    #[test]
+    fn a_short_recording_without_stamps_is_seen_to_begin_again() {
+        let (orders, counts) = run((0..20).chain(0..20).chain(0..20).map(|number| (number, None)));
+        let jumps: Vec<_> = (0..orders.len()).filter(|at| orders[*at] == FrameOrder::Jump).collect();
+        assert_eq!((jumps, counts.jumps), (vec![27, 47], 2));
+        assert_eq!(orders[28..40], [FrameOrder::Next; 12]);
     }
 
     #[test]

@@ -121,10 +121,12 @@ impl Client {
             self.note_frame(now, &frame);
         }
         let order = self.numbers.note(now, &frame, &mut self.counts);
+        let number = frame.number;
         self.outputs.event(Event::Frame(ReceivedFrame {
             frame: Arc::new(frame),
             received: now,
             order,
+            late: self.numbers.newest() != Some(number),
             quirks: packet.quirks.union(quirks),
         }));
         Ok(())

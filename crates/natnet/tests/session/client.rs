@@ -283,11 +283,25 @@ fn the_same_bytes_twice_are_one_frame_and_the_same_number_twice_are_two() {
         .0
         .into_iter()
         .filter_map(|event| match event {
-            Event::Frame(received) => Some(received.order),
+            Event::Frame(received) => Some((received.order, received.late)),
             _ => None,
         })
         .collect();
-    assert_eq!(orders, [FrameOrder::Next, FrameOrder::Repeated]);
+    assert_eq!(orders, [(FrameOrder::Next, false), (FrameOrder::Repeated, false)]);
+}
+
+#[test]
+fn a_frame_after_a_newer_one_is_late_whether_or_not_it_came_before() {
+    let mut harness = Harness::connected(ClientOptions::new(server_address(), Mode::Unicast));
+    for number in [1, 3, 2, 1, 4] {
+        harness.answer(&boxed(number));
+    }
+    let late = harness.drain().0.into_iter().filter_map(|event| match event {
+        Event::Frame(received) => Some((received.frame.number, received.late)),
+        _ => None,
+    });
+    let late: Vec<_> = late.collect();
+    assert_eq!(late, [(1, false), (3, false), (2, true), (1, true), (4, false)]);
 }
 
 #[test]

@@ -293,6 +293,7 @@ mod tests {
         ReceivedFrame {
             frame: Arc::new(frame),
             received: Stamp(5_000_000),
+            late: false,
             order: posewire_natnet::client::FrameOrder::Next,
             quirks: Quirks::NONE,
         }

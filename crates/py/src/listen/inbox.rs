@@ -1,5 +1,7 @@
 //! What has arrived and not been taken yet.
 
+use super::bell::Sleeper;
+use super::newest::Newest;
 use crate::frame::{Arrival, Frame};
 use posewire::queue::Policy;
 use posewire::stats::Statistics;
@@ -35,9 +37,7 @@ struct Shared {
 #[derive(Default)]
 struct Held {
     waiting: VecDeque<Frame>,
-    /// The newest sample of each subject, and which of them is the newest of all.
-    newest: BTreeMap<(SourceId, u32), Frame>,
-    last: Option<(SourceId, u32)>,
+    newest: Newest,
     /// Whether anybody has begun to take samples out one by one: before, old ones make room and nobody misses them.
     is_read: bool,
     dropped: u64,
@@ -45,7 +45,9 @@ struct Held {
     untold: u64,
     statistics: BTreeMap<SourceId, Arc<Statistics>>,
     notices: VecDeque<String>,
-    sleepers: usize,
+    /// Threads that wait, and those who wait without one.
+    waiting_threads: usize,
+    sleepers: Vec<Sleeper>,
     ended: bool,
 }
 
@@ -65,12 +67,7 @@ impl Inbox {
     /// The newest sample, of all subjects or of one by its name.
     pub(super) fn newest(&self, subject: Option<&str>) -> Option<Frame> {
         let held = self.lock();
-        let Some(subject) = subject else {
-            return held.newest.get(held.last.as_ref()?).cloned();
-        };
-        let of_name = |frame: &&Frame| frame.frame.subject.name == subject;
-        let at = |frame: &&Frame| frame.arrival.map(|arrival| arrival.at);
-        held.newest.values().filter(of_name).max_by_key(at).cloned()
+        held.newest(subject).cloned()
     }
 
     /// Waits no longer than told until a sample can be taken or none will come.
@@ -80,20 +77,32 @@ impl Inbox {
 
     /// Waits no longer than told until there is a newest sample of a subject, or none will come.
     pub(super) fn wait_for_newest(&self, subject: Option<&str>, longest: Duration) -> bool {
-        self.wait_until(longest, |held| match subject {
-            None => held.last.is_some(),
-            Some(subject) => held.newest.values().any(|frame| frame.frame.subject.name == subject),
-        })
+        self.wait_until(longest, |held| held.newest(subject).is_some())
     }
 
     fn wait_until(&self, longest: Duration, is_there: impl Fn(&Held) -> bool) -> bool {
         let mut held = self.lock();
-        held.sleepers += 1;
+        held.waiting_threads += 1;
         let waits = |held: &mut Held| !is_there(held) && !held.ended;
         let waited = self.shared.changed.wait_timeout_while(held, longest, waits);
         let (mut held, timeout) = waited.unwrap_or_else(PoisonError::into_inner);
-        held.sleepers -= 1;
+        held.waiting_threads -= 1;
         !timeout.timed_out()
+    }
+
+    /// Wakes somebody when a sample can be taken or none will come; `false` if that is so already.
+    pub(super) fn wake(&self, sleeper: Sleeper) -> bool {
+        let mut held = self.lock();
+        let sleeps = held.waiting.is_empty() && !held.ended;
+        if sleeps {
+            held.sleepers.push(sleeper);
+        }
+        sleeps
+    }
+
+    /// Wakes somebody no more.
+    pub(super) fn let_sleep(&self, number: u64) {
+        self.lock().sleepers.retain(|sleeper| sleeper.number != number);
     }
 
     /// Whether no sample will come any more; some may wait to be taken.
@@ -113,9 +122,7 @@ impl Inbox {
 
     /// Names of the subjects that were heard of.
     pub(super) fn subjects(&self) -> Vec<String> {
-        let held = self.lock();
-        let names = held.newest.values().map(|frame| frame.frame.subject.name.clone());
-        names.collect()
+        self.lock().newest.subjects().map(str::to_owned).collect()
     }
 
     /// The newest statistics of each source.
@@ -130,8 +137,20 @@ impl Inbox {
 
     /// Ends all waiting.
     pub(super) fn end(&self) {
-        self.lock().ended = true;
-        self.shared.changed.notify_all();
+        let mut held = self.lock();
+        held.ended = true;
+        self.rouse(held);
+    }
+
+    /// Wakes all who wait.
+    fn rouse(&self, mut held: MutexGuard<'_, Held>) {
+        let threads = held.waiting_threads;
+        let sleepers = std::mem::take(&mut held.sleepers);
+        drop(held);
+        if threads > 0 {
+            self.shared.changed.notify_all();
+        }
+        sleepers.into_iter().for_each(Sleeper::wake);
     }
 
     fn lock(&self) -> MutexGuard<'_, Held> {
@@ -148,19 +167,17 @@ impl Inbox {
             }),
         };
         let mut held = self.lock();
-        let subject = (source, frame.subject.id);
-        held.newest.insert(subject, arrived.clone());
-        held.last = Some(subject);
+        held.newest.put(source, &arrived);
         held.add(arrived, self.keeping.capacity);
-        let sleepers = held.sleepers;
-        drop(held);
-        if sleepers > 0 {
-            self.shared.changed.notify_all();
-        }
+        self.rouse(held);
     }
 }
 
 impl Held {
+    fn newest(&self, subject: Option<&str>) -> Option<&Frame> {
+        subject.map_or_else(|| self.newest.of_all(), |subject| self.newest.of(subject))
+    }
+
     fn add(&mut self, frame: Frame, capacity: usize) {
         if self.waiting.len() < capacity {
             self.waiting.push_back(frame);

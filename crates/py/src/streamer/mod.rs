@@ -9,6 +9,7 @@ mod told;
 
 use crate::error::{exception, raised, usage};
 use crate::number::Whole;
+use crate::process::Opened;
 use crate::section::named;
 use crate::skeleton::Skeleton;
 use carrying::Carrying;
@@ -35,7 +36,7 @@ pub(crate) struct Streamer {
     subjects: Vec<Arc<Subject>>,
     carrying: Carrying,
     numbering: Mutex<Numbering>,
-    running: Mutex<Option<Running>>,
+    running: Opened<Mutex<Option<Running>>>,
 }
 
 struct Running {
@@ -44,8 +45,10 @@ struct Running {
 }
 
 impl Streamer {
-    fn lock(&self) -> MutexGuard<'_, Option<Running>> {
-        self.running.lock().unwrap_or_else(PoisonError::into_inner)
+    /// What runs; nothing in a child of the process that opened it.
+    fn lock(&self) -> Option<MutexGuard<'_, Option<Running>>> {
+        let running = self.running.if_here()?;
+        Some(running.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
     /// The place of the subject with this number or name; the first if left out.
@@ -77,7 +80,7 @@ impl Streamer {
 
     fn push(&self, frame: Frame) -> Result<(), Ended> {
         let mut running = self.lock();
-        let Some(Running { feed, .. }) = running.as_mut() else {
+        let Some(Running { feed, .. }) = running.as_deref_mut().and_then(Option::as_mut) else {
             return Err(Ended::Closed);
         };
         let item = Item::Frame {
@@ -87,7 +90,7 @@ impl Streamer {
         if feed.push([item]) {
             return Ok(());
         }
-        let running = running.take();
+        let running = running.as_deref_mut().and_then(Option::take);
         let failed = running.map_or(Ok(()), |running| self.finish(running));
         Err(failed.map_or_else(Ended::Failed, |()| Ended::Closed))
     }
@@ -162,6 +165,7 @@ impl Streamer {
         timecode: Option<f64>,
         sections: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<()> {
+        self.running.here()?;
         if self.closed() {
             return Err(self.closed_error());
         }
@@ -208,13 +212,15 @@ impl Streamer {
     /// Datagrams, and of TCP samples, that did not reach their target for a reason on this side: a TCP peer was too slow for them or
     /// away, the network had no room, the system refused them. What gets lost behind that only the receiver can know.
     #[getter]
-    fn dropped(&self, py: Python<'_>) -> u64 {
-        py.detach(|| self.progress_now().lost())
+    fn dropped(&self, py: Python<'_>) -> PyResult<u64> {
+        self.running.here()?;
+        Ok(py.detach(|| self.progress_now().lost()))
     }
 
     /// How far it has come, as `posewire stream --json` tells it: a dict of frames, lost, lateness_ms, targets with their numbers and
     /// their clients, and what is left_out. It goes on until it is closed, and stays after that.
     fn progress<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.running.here()?;
         let progress = py.detach(|| self.progress_now());
         told::record(py, &progress)
     }
@@ -222,22 +228,24 @@ impl Streamer {
     /// What has happened, target by target: who connected and left, what failed, and what a target has no place for. The newest
     /// 100 of each target, the newest last.
     #[getter]
-    fn notices(&self, py: Python<'_>) -> Vec<String> {
+    fn notices(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        self.running.here()?;
         let mut notices = told::notices(&py.detach(|| self.progress_now()));
         notices.extend(self.lock_failure().as_ref().map(ToString::to_string));
-        notices
+        Ok(notices)
     }
 
     /// Whether nothing can be sent any more.
     #[getter]
     fn closed(&self) -> bool {
-        self.running.try_lock().is_ok_and(|running| running.is_none())
+        let is_over = |running: &Mutex<Option<_>>| running.try_lock().is_ok_and(|running| running.is_none());
+        self.running.if_here().is_none_or(is_over)
     }
 
     /// Sends what is on its way and ends it. Raises what had ended it before, unless that was raised already.
     fn close(&self, py: Python<'_>) -> PyResult<()> {
         let finished = py.detach(|| {
-            let running = self.lock().take();
+            let running = self.lock().and_then(|mut running| running.take());
             running.map_or(Ok(()), |running| self.finish(running))
         });
         finished.map_err(|error| raised(&error))

@@ -5,6 +5,7 @@ use super::numbering::Numbering;
 use super::told::{self, Told};
 use super::{Running, Streamer};
 use crate::error::{raised, usage};
+use crate::process::Opened;
 use crate::skeleton::Skeleton;
 use posewire::endpoint::Endpoint;
 use posewire::sink::{MxtpSink, MxtpSinkOptions, NatNetSink, NatNetSinkOptions};
@@ -79,7 +80,7 @@ pub(crate) fn streamer(
         numbering: Mutex::new(Numbering::new(subjects.len())),
         subjects,
         carrying,
-        running: Mutex::new(Some(Running { session, feed })),
+        running: Opened::new("the streamer", Mutex::new(Some(Running { session, feed }))),
     })
 }
 

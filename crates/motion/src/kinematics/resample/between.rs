@@ -22,6 +22,7 @@ pub(super) fn between(a: &Frame, b: &Frame, share: f64, subject: Arc<Subject>) -
         subject,
         sample: near.sample,
         time: near.time,
+        late: false,
         received: near.received,
         timecode: between_timecodes(a.timecode, b.timecode, share),
         position: vectors(&a.position, &b.position),

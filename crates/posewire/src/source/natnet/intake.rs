@@ -314,14 +314,14 @@ impl<'a> Intake<'a> {
     }
 
     fn forward(&mut self, (received, at): &Arrived) {
-        let ReceivedFrame { frame, .. } = received;
+        let ReceivedFrame { frame, late, .. } = received;
         self.tally.frame(received, *at, self.client.clock(self.time.steady()));
         let mut samples = self.naming.read(frame);
         self.remark_on_sets(samples.is_empty() && !frame.marker_sets.is_empty());
         for mut sample in samples.drain(..) {
             self.announce(&sample.subject);
             self.tally.sample(&sample);
-            sample.received = Some(*at);
+            (sample.received, sample.late) = (Some(*at), *late);
             let frame = Arc::new(sample);
             self.outlet.push(Item::Frame { frame, due: self.due });
         }
