@@ -49,7 +49,7 @@ impl Error {
             Self::NoFrames { .. } => Some("posewire inspect says what it holds; export it again from MVN".into()),
             Self::Rate { .. } => Some("leave --rate out to send every sample".into()),
             Self::NotATarget { .. } => {
-                Some("give a network address, as in mxtp://127.0.0.1:9763; posewire convert writes files".into())
+                Some("give a network address, as in --to mxtp://127.0.0.1:9763; posewire convert writes files".into())
             }
             Self::Descriptions { .. } => Some("stream fewer people to NatNet".into()),
             Self::Character { .. } => Some("start at a lower --character, or stream fewer people".into()),
