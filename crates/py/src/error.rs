@@ -14,6 +14,8 @@ fn in_python(help: String) -> String {
         ("--salvage", "salvage=True"),
         ("--overwrite", "overwrite=True"),
         ("--only 0", "only=\"0\""),
+        // It takes where to send to by place.
+        ("--to ", ""),
     ];
     options
         .into_iter()

@@ -102,7 +102,7 @@ def test_a_fault_has_the_words_of_the_command_line(folder, taken, monkeypatch, k
     ended = subprocess.run(program, capture_output=True, text=True, timeout=60, stdin=subprocess.DEVNULL)
     error = raised.value
     assert type(error) is kind and error.help and str(error) == f"{error.message}\nhelp: {error.help}"
-    said = ended.stderr.replace("--overwrite", "overwrite=True").replace("--only 0", 'only="0"')
+    said = ended.stderr.replace("--overwrite", "overwrite=True").replace("--only 0", 'only="0"').replace("--to ", "")
     assert (f"error: {error}\n", code) == (said, ended.returncode)
 
 
