@@ -4,8 +4,8 @@ use crate::error::{exception, raised, usage};
 use crate::listen::arguments::texts;
 use crate::number::Whole;
 use crate::process::Opened;
-use posewire::capture::Format;
-use posewire::endpoint::{Endpoint, FileFormat};
+use posewire::endpoint::Endpoint;
+use posewire::recording::check_ending;
 use posewire::sink::{RecordOptions, RecordProgress, RecordSink};
 use posewire::source::PlaybackOptions;
 use posewire::stop::Stop;
@@ -74,7 +74,7 @@ impl Recorder {
             ));
         }
         let endpoints = urls.iter().map(|url| live(url)).collect::<PyResult<Vec<_>>>()?;
-        refuse(&path)?;
+        check_ending(&path).map_err(|error| raised(&error))?;
         let options = RecordOptions {
             split: split_megabytes.map(split).transpose()?,
             overwrite,
@@ -150,25 +150,6 @@ fn live(url: &str) -> PyResult<Endpoint> {
         )),
         endpoint => endpoint.map_err(|error| raised(&error)),
     }
-}
-
-/// Refuses to write a recording under a name that says something else, as `posewire record` does.
-fn refuse(path: &Path) -> PyResult<()> {
-    let name = path.to_string_lossy().to_lowercase();
-    let takes = FileFormat::ALL.iter().map(|format| format.ending());
-    let captures = [Format::Pcap, Format::PcapNg].map(Format::ending);
-    let mut endings = captures.into_iter().chain(takes);
-    let Some(other) = endings.find(|ending| name.ends_with(&format!(".{ending}"))) else {
-        return Ok(());
-    };
-    let mcap = path.with_extension("mcap");
-    Err(usage(
-        format!("record writes MCAP files, {} says {other}", path.display()),
-        format!(
-            "path={:?}; what it holds can be converted afterwards",
-            mcap.display().to_string()
-        ),
-    ))
 }
 
 /// Bytes of a file at most.
