@@ -1,7 +1,6 @@
 //! What the protocols of a streamer carry: what is given is sent, or refused with a reason.
 
 use crate::error::usage;
-use crate::section::List;
 use posewire_motion::{Frame, Per, Section, SegmentKind};
 use posewire_mxtp::MessageType;
 use posewire_mxtp::motion::{MessageTypes, carriers, lacks, sections};
@@ -76,7 +75,7 @@ fn missing(frame: &Frame, carrier: MessageType) -> Vec<Section> {
 }
 
 fn has(frame: &Frame, section: Section) -> bool {
-    List::of(frame, section).len() > 0
+    !frame.entries(section).is_empty()
 }
 
 /// Checks that each entry that is known goes out in one of these types, for which the frame has the sections.
@@ -94,7 +93,7 @@ fn check_entries(frame: &Frame, section: Section, carriers: &[MessageType]) -> P
     };
     let stays =
         |place: &usize| is_known(frame, section, *place) && !carriers.iter().any(|carrier| goes(*place, carrier));
-    let found = (0..List::of(frame, section).len()).find(stays);
+    let found = (0..frame.entries(section).len()).find(stays);
     found.map_or(Ok(()), |place| Err(halved(frame, section, place, carriers[0])))
 }
 
@@ -120,7 +119,7 @@ fn has_place(frame: &Frame, section: Section, place: usize, carrier: MessageType
 }
 
 fn is_known(frame: &Frame, section: Section, place: usize) -> bool {
-    List::of(frame, section).is_known(place)
+    frame.entries(section).is_tracked(place)
 }
 
 /// For a section that no target has a place for.
