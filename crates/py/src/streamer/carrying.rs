@@ -16,6 +16,11 @@ pub(super) struct Carrying {
 }
 
 impl Carrying {
+    /// The last number that a sample can have.
+    pub(super) fn last_sample(self) -> u32 {
+        if self.natnet { i32::MAX as u32 } else { u32::MAX }
+    }
+
     /// Checks that every number of these sections of a frame goes out to some target.
     pub(super) fn check(self, frame: &Frame, given: &[Section]) -> PyResult<()> {
         given.iter().try_for_each(|section| self.check_section(frame, *section))

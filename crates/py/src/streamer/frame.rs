@@ -3,12 +3,62 @@
 use super::carrying::Carrying;
 use super::numbers::{quaternions, vectors};
 use crate::error::usage;
+use crate::section::named;
 use posewire_motion::{CenterOfMass, DVec3, Frame, Section, Timecode};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use std::time::Duration;
 
-/// Gives a frame the numbers of a section.
-pub(super) fn set(frame: &mut Frame, section: Section, numbers: &Bound<'_, PyAny>) -> PyResult<()> {
+/// A section, and what Python gives as its numbers.
+type Given<'py> = (Section, Bound<'py, PyAny>);
+
+/// What a sample is given: poses by their places, other sections by their names. They stand in the order of [`Section::ALL`], in
+/// which one follows what it needs.
+pub(super) fn given<'py>(
+    position: Option<&Bound<'py, PyAny>>,
+    orientation: Option<&Bound<'py, PyAny>>,
+    sections: Option<&Bound<'py, PyDict>>,
+) -> PyResult<Vec<Given<'py>>> {
+    let poses = [(Section::Position, position), (Section::Orientation, orientation)];
+    let poses = poses.map(|(section, numbers)| Some((section, numbers?.clone())));
+    let named = sections.into_iter().flatten().map(named_section);
+    let mut given = poses
+        .into_iter()
+        .flatten()
+        .map(Ok)
+        .chain(named)
+        .collect::<PyResult<Vec<_>>>()?;
+    given.sort_by_key(|(section, _)| *section);
+    if given.is_empty() {
+        return Err(usage(
+            "expected something to send, found nothing",
+            "give position and orientation, or sections by their names: joint_angles=",
+        ));
+    }
+    Ok(given)
+}
+
+fn named_section<'py>((name, numbers): (Bound<'py, PyAny>, Bound<'py, PyAny>)) -> PyResult<Given<'py>> {
+    let name = name.extract::<String>()?;
+    if UNSENDABLE.contains(&name.as_str()) {
+        return Err(usage(
+            format!("{name} cannot be sent: neither MXTP nor NatNet has a place for them"),
+            "leave them out; files hold them",
+        ));
+    }
+    Ok((named(&[name])?[0], numbers))
+}
+
+/// Gives a frame these numbers, each of which goes out to some target.
+pub(super) fn fill(frame: &mut Frame, carrying: Carrying, given: Vec<Given<'_>>) -> PyResult<()> {
+    for (section, numbers) in &given {
+        set(frame, *section, numbers)?;
+    }
+    let sections: Vec<_> = given.into_iter().map(|(section, _)| section).collect();
+    carrying.check(frame, &sections)
+}
+
+fn set(frame: &mut Frame, section: Section, numbers: &Bound<'_, PyAny>) -> PyResult<()> {
     let subject = frame.subject.clone();
     if matches!(section, Section::Orientation | Section::SensorOrientation) {
         let rotations = quaternions(&subject.skeleton, section, numbers)?;
@@ -76,13 +126,17 @@ pub(super) fn clock(seconds: f64, carrying: Carrying) -> PyResult<Duration> {
     Ok(time)
 }
 
-/// A time of day.
-pub(super) fn timecode(seconds: f64) -> PyResult<Timecode> {
+/// A time of day that goes out.
+pub(super) fn time_of_day(seconds: f64, carrying: Carrying) -> PyResult<Timecode> {
     if !(0.0..86_400.0).contains(&seconds) {
         return Err(usage(
             format!("expected seconds from 0 to 86400 as the timecode, found {seconds}"),
             "they are counted from midnight, UTC: time.time() % 86400",
         ));
     }
+    carrying.check_timecode()?;
     Ok(Timecode::from_milliseconds((seconds * 1000.0).round() as u64))
 }
+
+/// What a frame of a file can have besides sections, and no protocol carries.
+const UNSENDABLE: [&str; 2] = ["contacts", "events"];
