@@ -156,6 +156,16 @@ def test_what_natnet_does_not_carry_is_refused(walk):
             assert "velocity" in stream.next(timeout=10).sections
 
 
+def test_targets_are_told_in_the_order_given():
+    urls = ["mxtp://127.0.0.1:9", "natnet://127.0.0.1:0?data-port=0", "mxtp://127.0.0.1:10"]
+    with posewire.streamer(*urls) as streamer:
+        schemes = [url.split(":")[0] for url in streamer.urls]
+        assert schemes == ["mxtp", "natnet", "mxtp"] and streamer.urls[2].endswith(":10")
+        assert [target["endpoint"] for target in streamer.progress()["targets"]] == streamer.urls
+    with pytest.raises(posewire.UsageError, match="NatNet has no datagram types"):
+        posewire.streamer(urls[1], types="all")
+
+
 def test_contacts_and_events_have_no_place_on_the_wire(to_nobody, walk):
     for name in ["contacts", "events"]:
         with pytest.raises(posewire.UsageError, match=f"{name} cannot be sent: neither MXTP nor NatNet"):

@@ -133,7 +133,7 @@ enum Ended {
 
 #[pymethods]
 impl Streamer {
-    /// Where it sends to.
+    /// Where it sends to, in the order given, with the ports that the system chose.
     #[getter]
     fn urls(&self) -> Vec<String> {
         self.urls.clone()

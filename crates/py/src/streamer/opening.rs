@@ -144,14 +144,15 @@ fn open(
     rate: f64,
 ) -> posewire::Result<(Sinks, Vec<Told>)> {
     let (mut sinks, mut told) = (Sinks::new(), Vec::new());
-    let mut mxtp = Vec::new();
-    for target in targets {
+    let (mut mxtp, mut mxtp_places) = (Vec::new(), Vec::new());
+    for (place, target) in targets.into_iter().enumerate() {
         let Endpoint::NatNet(address) = target else {
             mxtp.push(target);
+            mxtp_places.push(place);
             continue;
         };
         let sink = open_natnet(&address, subjects, rate)?;
-        told.push(Told::of_natnet(&sink));
+        told.push(Told::of_natnet(&sink, place));
         sinks.push(Box::new(sink));
     }
     if let Some(types) = carrying.mxtp {
@@ -160,7 +161,7 @@ fn open(
             ..MxtpSinkOptions::default()
         };
         let sink = MxtpSink::open(&mxtp, options)?;
-        told.push(Told::of_mxtp(&sink));
+        told.push(Told::of_mxtp(&sink, mxtp_places));
         sinks.push(Box::new(sink));
     }
     Ok((sinks, told))
