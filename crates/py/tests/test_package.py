@@ -174,7 +174,11 @@ def test_examples_write_where_they_are_told(tmp_path, walk):
 def test_the_parts_of_the_plot_can_be_imported(tmp_path, walk):
     pytest.importorskip("matplotlib")
     walk.write(tmp_path / "walk.mvnx")
-    program = "import posewire, plot_joint_angles; axes = plot_joint_angles.plot(posewire.read('walk.mvnx')); print(len(axes.lines))"
+    program = """
+import posewire, plot_joint_angles
+axes = plot_joint_angles.plot(posewire.read("walk.mvnx"))
+print(len(axes.lines))
+"""
     environment = {
         **os.environ,
         "MPLBACKEND": "Agg",
