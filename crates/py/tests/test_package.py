@@ -155,8 +155,6 @@ def test_examples_run_and_leave_nothing_where_they_are(path, tmp_path):
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_examples_explain_themselves(path, tmp_path):
-    if "argparse" not in path.read_text():
-        pytest.skip("takes its arguments by place")
     assert run_example(path, tmp_path, "--help").startswith("usage: ")
 
 
