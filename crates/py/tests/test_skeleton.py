@@ -5,6 +5,7 @@ import pickle
 
 import numpy as np
 import pytest
+from conftest import until
 
 import posewire
 
@@ -85,10 +86,10 @@ def test_natnet_carries_any_skeleton():
     position, orientation = np.arange(9.0).reshape(3, 3), np.tile([1.0, 0, 0, 0], (3, 1))
     with posewire.streamer("natnet://127.0.0.1:0?data-port=0", skeleton=arm, names=["Robot"]) as streamer:
         with posewire.listen(streamer.urls[0]) as stream:
-            frame = None
-            while frame is None or frame.subject != "Robot":
-                streamer.send(position, orientation)
-                frame = stream.next(timeout=0.01)
+            until(lambda: streamer.notices)
+            streamer.send(position, orientation)
+            frame = stream.next(timeout=10)
+            assert frame.subject == "Robot"
             assert (frame.segments, frame.skeleton.parents) == (ARM, arm.parents)
             np.testing.assert_allclose(frame.position, position, atol=1e-6)
 

@@ -5,6 +5,7 @@ import time
 
 import numpy as np
 import pytest
+from conftest import until
 
 import posewire
 
@@ -212,13 +213,6 @@ def test_the_clocks_of_the_program_are_sent(walk):
         with posewire.streamer(stream.url, types="02") as streamer:
             with pytest.raises(posewire.UsageError, match="timecode is not sent: datagram type 25"):
                 streamer.send(**numbers(walk, *POSE), timecode=1)
-
-
-def until(is_so):
-    """Asks until it is so; numbers of a streamer are brought up to date ten times a second."""
-    end = time.monotonic() + 60
-    while not is_so():
-        assert time.monotonic() < end
 
 
 def test_what_a_slow_receiver_misses_is_counted(walk):
