@@ -125,8 +125,7 @@ impl Frame {
     /// The time of day, UTC, in seconds since midnight; None where the source does not say.
     #[getter]
     fn timecode(&self) -> Option<f64> {
-        let code = self.frame.timecode;
-        code.map(|code| f64::from(code.milliseconds()) / 1000.0)
+        self.frame.timecode.map(posewire_motion::Timecode::seconds)
     }
 
     /// When it arrived at this machine, UTC in nanoseconds since 1970; None for one that did not.

@@ -128,11 +128,9 @@ impl Take {
     /// The time of day, UTC, in seconds since midnight: (samples,), NaN where the source does not say.
     #[getter]
     fn timecode<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let seconds = |code: &Option<posewire_motion::Timecode>| {
-            code.map_or(f64::NAN, |code| f64::from(code.milliseconds()) / 1000.0)
-        };
         let codes = self.take().timecodes().iter();
-        array::owned(py, [self.take().len()], codes.map(seconds).collect())
+        let seconds = codes.map(|code| code.map_or(f64::NAN, posewire_motion::Timecode::seconds));
+        array::owned(py, [self.take().len()], seconds.collect())
     }
 
     /// Whether the feet touch the ground: (samples, contacts), bool; False where the source does not say.

@@ -63,7 +63,9 @@ impl Carrying {
 }
 
 fn missing(frame: &Frame, carrier: MessageType) -> Vec<Section> {
-    needed_sections(frame, carrier).filter(|section| !has(frame, *section)).collect()
+    needed_sections(frame, carrier)
+        .filter(|section| !has(frame, *section))
+        .collect()
 }
 
 fn has(frame: &Frame, section: Section) -> bool {
