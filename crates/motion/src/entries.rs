@@ -1,6 +1,7 @@
-//! What a frame has of one section.
+//! The sections of a frame as numbers, and back.
 
-use crate::{Frame, Section};
+use crate::column::{quaternion, vector};
+use crate::{CenterOfMass, Frame, Section};
 use glam::{DQuat, DVec3};
 use std::slice;
 
@@ -58,6 +59,55 @@ impl Frame {
     pub fn sections(&self) -> impl Iterator<Item = Section> {
         let sections = Section::ALL.iter().copied();
         sections.filter(|section| !self.entries(*section).is_empty())
+    }
+
+    /// Gives the frame the entries of a section, in place of those that it has: their numbers as [`Entries::numbers`] has them, and
+    /// none to take the section from it. An entry of which every number is NaN is not tracked.
+    ///
+    /// Without the position of the centre of mass its velocity and acceleration have no place and are left out.
+    pub fn set_entries(&mut self, section: Section, numbers: &[f64]) {
+        let vectors = match section {
+            Section::Position => &mut self.position,
+            Section::Velocity => &mut self.velocity,
+            Section::Acceleration => &mut self.acceleration,
+            Section::AngularVelocity => &mut self.angular_velocity,
+            Section::AngularAcceleration => &mut self.angular_acceleration,
+            Section::JointAngles => &mut self.joint_angles,
+            Section::JointAnglesXzy => &mut self.joint_angles_xzy,
+            Section::ErgonomicAngles => &mut self.ergonomic_angles,
+            Section::ErgonomicAnglesXzy => &mut self.ergonomic_angles_xzy,
+            Section::SensorFreeAcceleration => &mut self.sensor_free_acceleration,
+            Section::SensorAcceleration => &mut self.sensor_acceleration,
+            Section::SensorAngularVelocity => &mut self.sensor_angular_velocity,
+            Section::SensorMagneticField => &mut self.sensor_magnetic_field,
+            Section::Orientation => return set_quaternions(&mut self.orientation, numbers),
+            Section::SensorOrientation => return set_quaternions(&mut self.sensor_orientation, numbers),
+            Section::CenterOfMass | Section::CenterOfMassVelocity | Section::CenterOfMassAcceleration => {
+                return set_center(&mut self.center_of_mass, section, vector(numbers));
+            }
+        };
+        vectors.clear();
+        vectors.extend(numbers.chunks_exact(3).map(vector));
+    }
+}
+
+fn set_quaternions(list: &mut Vec<Option<DQuat>>, numbers: &[f64]) {
+    list.clear();
+    list.extend(numbers.chunks_exact(4).map(quaternion));
+}
+
+fn set_center(center: &mut Option<CenterOfMass>, section: Section, vector: Option<DVec3>) {
+    match (section, center) {
+        (Section::CenterOfMassVelocity, Some(center)) => center.velocity = vector,
+        (Section::CenterOfMassAcceleration, Some(center)) => center.acceleration = vector,
+        (Section::CenterOfMass, center) => {
+            *center = vector.map(|position| CenterOfMass {
+                position,
+                velocity: None,
+                acceleration: None,
+            });
+        }
+        _ => {}
     }
 }
 
@@ -133,7 +183,7 @@ fn write_quaternions(list: &[Option<DQuat>], to: &mut Vec<f64>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{CenterOfMass, Skeleton, Subject};
+    use crate::{Skeleton, Subject};
     use std::sync::Arc;
 
     fn frame() -> Frame {
@@ -152,6 +202,23 @@ mod tests {
         assert_eq!(entries.numbers()[..4], [0.8, 0.0, 0.0, 0.6]);
         assert!(entries.numbers()[4..].iter().all(|number| number.is_nan()) && entries.numbers().len() == 8);
         assert_eq!((entries.vector(0), entries.quaternion(2)), (None, None));
+    }
+
+    #[test]
+    fn what_is_read_is_what_was_set() {
+        let mut frame = frame();
+        for &section in Section::ALL {
+            let numbers = [0.8, 0.0, 0.6, 0.0][..section.components()].to_vec();
+            frame.set_entries(section, &numbers);
+            assert_eq!(frame.entries(section).numbers(), numbers, "{section}");
+        }
+        assert_eq!(frame.sections().collect::<Vec<_>>(), Section::ALL);
+        for section in [Section::Position, Section::Orientation, Section::CenterOfMass] {
+            frame.set_entries(section, &[]);
+            assert!(frame.entries(section).is_empty(), "{section}");
+        }
+        frame.set_entries(Section::CenterOfMassVelocity, &[1.0; 3]);
+        assert_eq!(frame.center_of_mass, None);
     }
 
     #[test]

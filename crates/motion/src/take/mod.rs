@@ -1,7 +1,6 @@
 //! A recorded take.
 
 mod contacts;
-mod lists;
 mod markers;
 mod order;
 mod read;
