@@ -4,6 +4,7 @@ use crate::error::{exception, raised, usage};
 use crate::listen::arguments::texts;
 use crate::number::Whole;
 use crate::process::Opened;
+use crate::read::FilePath;
 use posewire::endpoint::Endpoint;
 use posewire::recording::check_ending;
 use posewire::sink::{RecordOptions, RecordProgress, RecordSink};
@@ -12,7 +13,7 @@ use posewire::stop::Stop;
 use posewire::{Session, Source};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Records live streams into an MCAP file from the moment it is made: every datagram as it came, and the poses in them.
@@ -62,7 +63,7 @@ impl Recorder {
     fn new(
         py: Python<'_>,
         urls: &Bound<'_, PyTuple>,
-        path: PathBuf,
+        path: FilePath,
         overwrite: bool,
         split_megabytes: Option<Whole>,
     ) -> PyResult<Self> {
@@ -74,12 +75,12 @@ impl Recorder {
             ));
         }
         let endpoints = urls.iter().map(|url| live(url)).collect::<PyResult<Vec<_>>>()?;
-        check_ending(&path).map_err(|error| raised(&error))?;
+        check_ending(&path.0).map_err(|error| raised(&error))?;
         let options = RecordOptions {
             split: split_megabytes.map(split).transpose()?,
             overwrite,
         };
-        py.detach(|| start(&endpoints, &path, options))
+        py.detach(|| start(&endpoints, &path.0, options))
             .map_err(|error| raised(&error))
     }
 

@@ -316,7 +316,7 @@ class Streamer:
 @final
 class Recorder:
     def __new__(
-        cls, *urls: _Path, path: _Path, overwrite: bool = False, split_megabytes: int | None = None
+        cls, *urls: _Path, path: _FilePath, overwrite: bool = False, split_megabytes: int | None = None
     ) -> Recorder: ...
     @property
     def urls(self) -> list[str]: ...
