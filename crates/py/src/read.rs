@@ -113,7 +113,7 @@ fn play(
     stop: &Stop,
 ) -> posewire::Result<Vec<Recording>> {
     let options = PlaybackOptions {
-        speed: AT_ONCE,
+        speed: PlaybackOptions::AT_ONCE,
         only,
         computes: false,
         ..PlaybackOptions::default()
@@ -205,6 +205,3 @@ fn one(path: &Path, mut all: Vec<Take>, subject: Option<&str>) -> PyResult<Take>
     let message = format!("{}: expected {wanted}, found {found}", path.display());
     Err(exception("MissingError", message, Some(help.to_owned())))
 }
-
-/// A capture is played as fast as it can be read.
-const AT_ONCE: f64 = 1e6;

@@ -27,7 +27,7 @@ pub(super) fn live(
     stops: &Stops,
 ) -> anyhow::Result<(Vec<Recording>, u64)> {
     let options = PlaybackOptions {
-        speed: AT_ONCE,
+        speed: PlaybackOptions::AT_ONCE,
         only: only.map(str::to_owned),
         computes: false,
         ..PlaybackOptions::default()
@@ -69,6 +69,3 @@ fn announce(source: &Source) {
         None => say(format_args!("playing the poses of {}", source.endpoint())),
     }
 }
-
-/// A capture is played as fast as it can be read.
-const AT_ONCE: f64 = 1e6;
