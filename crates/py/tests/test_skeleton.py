@@ -18,6 +18,16 @@ def test_mvn_has_up_to_four_props_and_forty_fingers():
     assert len(posewire.Skeleton.standard(props=np.int64(2))) == 25
 
 
+def test_a_skeleton_says_which_segments_wear_sensors():
+    assert len(posewire.Skeleton.standard().sensors) == 17
+    assert posewire.Skeleton.standard(sensors=["Head", "Pelvis"]).sensors == ["Head", "Pelvis"]
+    assert posewire.Skeleton.standard(sensors=[]).sensors == []
+    with pytest.raises(posewire.UsageError, match='expected names of segments as the sensors, found "Nose"'):
+        posewire.Skeleton.standard(sensors=["Nose"])
+    with pytest.raises(posewire.UsageError, match='found "Head" twice'):
+        posewire.Skeleton.standard(sensors=["Head", "Pelvis", "Head"])
+
+
 @pytest.mark.parametrize("props", [-1, 5, 200, 2**40, -(2**63), 2**64, 10**500])
 def test_other_numbers_of_props_are_wrong_arguments(props):
     with pytest.raises(posewire.UsageError, match="expected a whole number from 0 to 4 as props, found "):

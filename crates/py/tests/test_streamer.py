@@ -9,17 +9,6 @@ from conftest import until
 
 import posewire
 
-
-def test_a_skeleton_says_which_segments_wear_sensors():
-    assert len(posewire.Skeleton.standard().sensors) == 17
-    assert posewire.Skeleton.standard(sensors=["Head", "Pelvis"]).sensors == ["Head", "Pelvis"]
-    assert posewire.Skeleton.standard(sensors=[]).sensors == []
-    with pytest.raises(posewire.UsageError, match='expected names of segments as the sensors, found "Nose"'):
-        posewire.Skeleton.standard(sensors=["Nose"])
-    with pytest.raises(posewire.UsageError, match='found "Head" twice'):
-        posewire.Skeleton.standard(sensors=["Head", "Pelvis", "Head"])
-
-
 STILL = np.tile([1.0, 0.0, 0.0, 0.0], (23, 1))
 
 
