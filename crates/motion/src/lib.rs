@@ -23,6 +23,7 @@
 //! ```
 
 mod column;
+mod entries;
 mod error;
 mod frame;
 pub mod kinematics;
@@ -37,6 +38,7 @@ mod take;
 mod time;
 
 pub use column::Column;
+pub use entries::Entries;
 pub use error::Error;
 pub use frame::{CenterOfMass, Frame, Marker};
 pub use glam::{DMat3, DQuat, DVec3};

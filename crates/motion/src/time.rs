@@ -84,6 +84,11 @@ impl Timecode {
     pub const fn milliseconds(self) -> u32 {
         self.0
     }
+
+    /// Seconds since midnight, less than 86,400: the number nearest to its milliseconds.
+    pub fn seconds(self) -> f64 {
+        f64::from(self.0) / 1000.0
+    }
 }
 
 impl fmt::Display for Timecode {
@@ -143,6 +148,10 @@ mod tests {
             assert_eq!(code.to_string().parse(), Ok(code));
         }
         assert_eq!(Timecode::from_milliseconds(45_296_789).to_string(), "12:34:56.789");
+        assert_eq!(
+            Timecode::from_milliseconds(45_296_789).seconds().to_bits(),
+            45_296.789_f64.to_bits()
+        );
     }
 
     #[test]

@@ -36,5 +36,5 @@ pub use decode::Filler;
 pub use encode::{Encoder, EncoderOptions};
 pub use lacks::lacks;
 pub use landmarks::LANDMARKS;
-pub use sections::{carriers, sections};
+pub use sections::{carriers, has_place, needed_sections, sections};
 pub use types::MessageTypes;

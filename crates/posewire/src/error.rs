@@ -341,6 +341,14 @@ pub enum Error {
         /// The file.
         path: PathBuf,
     },
+    /// A recording that was to be called as a file of another format.
+    #[error("record writes MCAP files, {} says {ending}", path.display())]
+    NotAsRecorded {
+        /// The file.
+        path: PathBuf,
+        /// How the files of the other format end.
+        ending: &'static str,
+    },
     /// A file that is no MCAP file.
     #[error("{path} is not an MCAP file")]
     NotMcap {
@@ -457,6 +465,7 @@ impl Error {
                 | Self::Fixed { .. }
                 | Self::Exists { .. }
                 | Self::OntoItself { .. }
+                | Self::NotAsRecorded { .. }
                 | Self::NoSamples { .. }
                 | Self::NewRate { .. }
                 | Self::Feature { .. }

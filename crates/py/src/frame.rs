@@ -1,7 +1,7 @@
 //! One sample as Python has it.
 
 use crate::array;
-use crate::section::{self, missing, of_frame, values};
+use crate::section::{self, missing};
 use crate::skeleton::Skeleton;
 use posewire_motion::{Per, Section};
 use pyo3::exceptions::PyTypeError;
@@ -48,16 +48,17 @@ impl Frame {
     }
 
     fn array<'py>(&self, py: Python<'py>, section: Section) -> PyResult<Bound<'py, PyAny>> {
-        let Some(numbers) = values(&self.frame, section) else {
+        let entries = self.frame.entries(section);
+        if entries.is_empty() {
             let help = "the source decides what it sends";
-            return Err(missing("the sample", section, of_frame(&self.frame), help));
-        };
+            return Err(missing("the sample", section, self.frame.sections(), help));
+        }
         let components = section.components();
         let shape = match section.per() {
             Per::Body => vec![components],
-            _ => vec![numbers.len() / components, components],
+            _ => vec![entries.len(), components],
         };
-        array::owned(py, shape, numbers)
+        array::owned(py, shape, entries.numbers())
     }
 }
 
@@ -106,7 +107,7 @@ impl Frame {
     /// Names of the sections that the sample has.
     #[getter]
     fn sections(&self) -> Vec<&'static str> {
-        of_frame(&self.frame).map(Section::name).collect()
+        self.frame.sections().map(Section::name).collect()
     }
 
     /// The source's number of the sample.
@@ -124,8 +125,7 @@ impl Frame {
     /// The time of day, UTC, in seconds since midnight; None where the source does not say.
     #[getter]
     fn timecode(&self) -> Option<f64> {
-        let code = self.frame.timecode;
-        code.map(|code| f64::from(code.milliseconds()) / 1000.0)
+        self.frame.timecode.map(posewire_motion::Timecode::seconds)
     }
 
     /// When it arrived at this machine, UTC in nanoseconds since 1970; None for one that did not.

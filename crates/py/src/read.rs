@@ -72,7 +72,7 @@ fn takes(py: Python<'_>, path: &Path, progress: Option<&Py<PyAny>>, options: &Op
     let work = || match &input {
         Input::Mvnx => file::read(path, options.reading(), &counted).map(|recording| vec![recording]),
         Input::Capture(endpoint) => play(endpoint, options.only.clone(), &kept, &heard, &stop),
-        Input::Walk(walk, duration) => Ok(walk_for(walk, *duration, &stop)),
+        Input::Walk(walk, duration) => walk_for(walk, *duration, &stop),
     };
     let read = working(py, &stop, work, || {
         let Some(progress) = progress else { return Ok(()) };
@@ -113,7 +113,7 @@ fn play(
     stop: &Stop,
 ) -> posewire::Result<Vec<Recording>> {
     let options = PlaybackOptions {
-        speed: AT_ONCE,
+        speed: PlaybackOptions::AT_ONCE,
         only,
         computes: false,
         ..PlaybackOptions::default()
@@ -179,21 +179,9 @@ impl Sink for Heard {
     }
 }
 
-fn walk_for(walk: &Walk, duration: Duration, stop: &Stop) -> Vec<Recording> {
-    let walk = synthetic::Walk::new(&walk.into());
-    let frames = (duration.as_secs_f64() * walk.rate()).ceil().max(1.0) as u32;
-    let person = |(person, subject): (usize, &Arc<posewire_motion::Subject>)| {
-        let mut take = posewire_motion::Take::new(Arc::clone(subject), walk.rate());
-        for sample in 0..frames {
-            if sample % 1024 == 0 && stop.is_stopped() {
-                break;
-            }
-            // The walker's frames fit the walker.
-            let _ = take.push(&walk.frame(person, sample));
-        }
-        Recording::from(take)
-    };
-    walk.subjects().iter().enumerate().map(person).collect()
+fn walk_for(walk: &Walk, duration: Duration, stop: &Stop) -> posewire::Result<Vec<Recording>> {
+    let takes = synthetic::Walk::new(&walk.into()).takes(duration, stop)?;
+    Ok(takes.into_iter().map(Recording::from).collect())
 }
 
 fn one(path: &Path, mut all: Vec<Take>, subject: Option<&str>) -> PyResult<Take> {
@@ -217,6 +205,3 @@ fn one(path: &Path, mut all: Vec<Take>, subject: Option<&str>) -> PyResult<Take>
     let message = format!("{}: expected {wanted}, found {found}", path.display());
     Err(exception("MissingError", message, Some(help.to_owned())))
 }
-
-/// A capture is played as fast as it can be read.
-const AT_ONCE: f64 = 1e6;

@@ -4,15 +4,16 @@ use crate::error::{exception, raised, usage};
 use crate::listen::arguments::texts;
 use crate::number::Whole;
 use crate::process::Opened;
-use posewire::capture::Format;
-use posewire::endpoint::{Endpoint, FileFormat};
+use crate::read::FilePath;
+use posewire::endpoint::Endpoint;
+use posewire::recording::check_ending;
 use posewire::sink::{RecordOptions, RecordProgress, RecordSink};
 use posewire::source::PlaybackOptions;
 use posewire::stop::Stop;
 use posewire::{Session, Source};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Records live streams into an MCAP file from the moment it is made: every datagram as it came, and the poses in them.
@@ -62,7 +63,7 @@ impl Recorder {
     fn new(
         py: Python<'_>,
         urls: &Bound<'_, PyTuple>,
-        path: PathBuf,
+        path: FilePath,
         overwrite: bool,
         split_megabytes: Option<Whole>,
     ) -> PyResult<Self> {
@@ -74,12 +75,12 @@ impl Recorder {
             ));
         }
         let endpoints = urls.iter().map(|url| live(url)).collect::<PyResult<Vec<_>>>()?;
-        refuse(&path)?;
+        check_ending(&path.0).map_err(|error| raised(&error))?;
         let options = RecordOptions {
             split: split_megabytes.map(split).transpose()?,
             overwrite,
         };
-        py.detach(|| start(&endpoints, &path, options))
+        py.detach(|| start(&endpoints, &path.0, options))
             .map_err(|error| raised(&error))
     }
 
@@ -150,25 +151,6 @@ fn live(url: &str) -> PyResult<Endpoint> {
         )),
         endpoint => endpoint.map_err(|error| raised(&error)),
     }
-}
-
-/// Refuses to write a recording under a name that says something else, as `posewire record` does.
-fn refuse(path: &Path) -> PyResult<()> {
-    let name = path.to_string_lossy().to_lowercase();
-    let takes = FileFormat::ALL.iter().map(|format| format.ending());
-    let captures = [Format::Pcap, Format::PcapNg].map(Format::ending);
-    let mut endings = captures.into_iter().chain(takes);
-    let Some(other) = endings.find(|ending| name.ends_with(&format!(".{ending}"))) else {
-        return Ok(());
-    };
-    let mcap = path.with_extension("mcap");
-    Err(usage(
-        format!("record writes MCAP files, {} says {other}", path.display()),
-        format!(
-            "path={:?}; what it holds can be converted afterwards",
-            mcap.display().to_string()
-        ),
-    ))
 }
 
 /// Bytes of a file at most.

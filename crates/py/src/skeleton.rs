@@ -65,7 +65,8 @@ impl Skeleton {
 
     /// MVN's skeleton: 23 body segments and 22 joints, then up to 4 `props`, then, with `fingers`, 20 segments of each hand.
     ///
-    /// `sensors` are the names of the segments that wear motion trackers, in the order of the sensors' arrays: MVN's 17 if left out.
+    /// `sensors` are the names of the segments that wear motion trackers, in the order of the sensors' arrays: MVN's 17 if left
+    /// out.
     ///
     /// Raises UsageError for another number of props, and for sensors on no segment or twice on one.
     #[staticmethod]

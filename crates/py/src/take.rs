@@ -128,11 +128,9 @@ impl Take {
     /// The time of day, UTC, in seconds since midnight: (samples,), NaN where the source does not say.
     #[getter]
     fn timecode<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let seconds = |code: &Option<posewire_motion::Timecode>| {
-            code.map_or(f64::NAN, |code| f64::from(code.milliseconds()) / 1000.0)
-        };
         let codes = self.take().timecodes().iter();
-        array::owned(py, [self.take().len()], codes.map(seconds).collect())
+        let seconds = codes.map(|code| code.map_or(f64::NAN, posewire_motion::Timecode::seconds));
+        array::owned(py, [self.take().len()], seconds.collect())
     }
 
     /// Whether the feet touch the ground: (samples, contacts), bool; False where the source does not say.
@@ -280,8 +278,9 @@ impl Take {
     /// The take as a table for polars, pyarrow, DuckDB and others: polars.DataFrame(take.to_arrow()).
     ///
     /// A row for each sample: subject, sample, time, the timecode as a time of day (UTC), and a column for each number, as
-    /// position_Pelvis_x or joint_angles_jLeftKnee_z, the flexion; units are those of the arrays, so angles are radians; null is not
-    /// tracked.
+    /// position_Pelvis_x or joint_angles_jLeftKnee_z, the flexion; units are those of the arrays, so angles are radians; null is
+    /// not tracked.
+    ///
     /// `sections` are names of sections; all of them if left out, and then `event`, with the names of those set at a sample,
     /// and contact_LeftFoot_Heel and the like too. What no sample has is no column.
     #[pyo3(signature = (sections = None))]
@@ -289,8 +288,8 @@ impl Take {
         arrow::table(py, self, sections.as_deref())
     }
 
-    /// Writes a file in the format that its name ends in, or that `format` names: mvnx, mvnx.gz, csv, bvh, c3d, trc, mot, sto, gltf,
-    /// glb, npz, parquet.
+    /// Writes a file in the format that its name ends in, or that `format` names: mvnx, mvnx.gz, csv, bvh, c3d, trc, mot, sto,
+    /// gltf, glb, npz, parquet.
     ///
     /// `axes` ("z-up", "y-up", "unity", "unreal") and `unit` ("m", "cm", "mm") are those that the format's tools expect if left
     /// out; `sections` are names of sections, computed where the take lacks them; `first` and `last` are sample numbers, both

@@ -1,8 +1,10 @@
 //! Work that Python waits for, and that Ctrl-C ends.
 
+use crate::error::usage;
 use posewire::stop::Stop;
 use pyo3::prelude::*;
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -23,10 +25,10 @@ pub(crate) fn working<T: Send>(
             result
         });
         let mut interrupted = Ok(());
-        let finished = std::sync::Mutex::new(finished);
+        let finished = Mutex::new(finished);
         loop {
             let waited = py.detach(|| {
-                let finished = finished.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+                let finished = finished.lock().unwrap_or_else(PoisonError::into_inner);
                 finished.recv_timeout(LOOK_EVERY)
             });
             if waited != Err(RecvTimeoutError::Timeout) {
@@ -69,7 +71,7 @@ pub(crate) fn until(
 pub(crate) fn timeout(seconds: Option<f64>) -> PyResult<Option<Duration>> {
     let Some(seconds) = seconds else { return Ok(None) };
     if seconds.is_nan() {
-        return Err(crate::error::usage(
+        return Err(usage(
             "expected seconds as the timeout, found NaN",
             "None waits for ever",
         ));

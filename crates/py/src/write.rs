@@ -218,7 +218,7 @@ impl Take {
         }
         let wanted = self.wanted(target.format, options);
         let computed = if wanted.iter().any(|section| recording.take.column(*section).is_none()) {
-            recording.to_mut().complete(&wanted)
+            recording.to_mut().complete(wanted)
         } else {
             Vec::new()
         };
@@ -239,12 +239,10 @@ impl Take {
     }
 
     /// The sections that are computed where they are lacking, as `posewire convert` does.
-    fn wanted(&self, format: FileFormat, options: &WriteOptions) -> Vec<Section> {
-        match (&options.sections, format) {
-            (Some(sections), _) => sections.clone(),
-            (None, FileFormat::Mot) => vec![Section::JointAngles],
-            (None, FileFormat::Mvnx | FileFormat::MvnxGz) if self.received => Section::ALL.to_vec(),
-            (None, _) => Vec::new(),
+    fn wanted<'a>(&self, format: FileFormat, options: &'a WriteOptions) -> &'a [Section] {
+        match format {
+            FileFormat::Mvnx | FileFormat::MvnxGz if self.received && options.sections.is_none() => Section::ALL,
+            _ => options.needed(format),
         }
     }
 }

@@ -1,12 +1,20 @@
 """What several tests need."""
 
 import pathlib
+import time
 
 import pytest
 
 import posewire
 
 ROOT = pathlib.Path(__file__).parents[3]
+
+
+def until(is_so):
+    """Asks until it is so, and fails where that takes a minute."""
+    end = time.monotonic() + 60
+    while not is_so():
+        assert time.monotonic() < end
 
 
 @pytest.fixture(scope="session")

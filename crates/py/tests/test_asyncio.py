@@ -4,9 +4,11 @@ import asyncio
 import concurrent.futures
 import gc
 import threading
+import time
 
 import numpy as np
 import pytest
+from conftest import until
 
 import posewire
 from posewire import _asynchronous
@@ -19,9 +21,16 @@ def waiting():
     return len(_asynchronous._all._futures) if _asynchronous._all else 0
 
 
-async def until_waiting(count):
-    while waiting() != count:
+async def until_so(is_so):
+    """Lets other tasks run until it is so, and fails where that takes a minute."""
+    end = time.monotonic() + 60
+    while not is_so():
+        assert time.monotonic() < end
         await asyncio.sleep(0.001)
+
+
+async def until_waiting(count):
+    await until_so(lambda: waiting() == count)
 
 
 async def first(stream):
@@ -107,8 +116,7 @@ def test_several_tasks_share_the_samples_of_a_stream():
                 for _ in range(50):
                     streamer.send(*STILL)
                     await asyncio.sleep(0)
-            while sum(map(len, taken)) < 50:
-                await asyncio.sleep(0.001)
+            await until_so(lambda: sum(map(len, taken)) == 50)
             await until_waiting(3)
             stream.close()
             await asyncio.gather(*tasks)
@@ -185,8 +193,7 @@ def test_what_finds_no_room_is_raised():
                 await until_waiting(1)
                 for _ in range(10):
                     streamer.send(*STILL)
-                while stream.latest(timeout=10).sample != 9:
-                    pass
+                until(lambda: stream.latest(timeout=10).sample == 9)
                 # The task has not had its turn: five are there, and five are gone.
                 with pytest.raises(posewire.OverflowError, match="5 samples are gone"):
                     await task

@@ -1,5 +1,6 @@
 """Recordings are complete, whatever ends them."""
 
+import os
 import signal
 import time
 
@@ -68,6 +69,7 @@ def test_a_signal_while_it_closes_leaves_a_complete_file(tmp_path):
 def test_a_file_that_is_there_is_kept(tmp_path):
     path = tmp_path / "take.mcap"
     path.write_bytes(b"precious")
-    with pytest.raises(posewire.WriteError, match="take.mcap"):
-        posewire.Recorder("mxtp://127.0.0.1:0", path=path)
+    for spelled in (path, str(path), os.fsencode(path)):
+        with pytest.raises(posewire.WriteError, match="take.mcap"):
+            posewire.Recorder("mxtp://127.0.0.1:0", path=spelled)
     assert path.read_bytes() == b"precious"

@@ -4,10 +4,10 @@ import os
 import pathlib
 import subprocess
 import sys
-import time
 
 import numpy as np
 import pytest
+from conftest import until
 
 import posewire
 
@@ -33,9 +33,7 @@ def recording(tmp_path_factory):
                 pair.send(frame.position, frame.orientation)
                 pair.send(frame.position, frame.orientation, subject=1)
                 single.send(frame.position, frame.orientation)
-        end = time.monotonic() + 30
-        while recorder.progress()["frames"] < 340 and time.monotonic() < end:
-            pass
+        until(lambda: recorder.progress()["frames"] >= 340)
     return path
 
 

@@ -5,6 +5,7 @@ import pickle
 
 import numpy as np
 import pytest
+from conftest import until
 
 import posewire
 
@@ -15,6 +16,16 @@ def test_mvn_has_up_to_four_props_and_forty_fingers():
     assert len(posewire.Skeleton.standard()) == 23
     assert len(posewire.Skeleton.standard(4, fingers=True)) == 67
     assert len(posewire.Skeleton.standard(props=np.int64(2))) == 25
+
+
+def test_a_skeleton_says_which_segments_wear_sensors():
+    assert len(posewire.Skeleton.standard().sensors) == 17
+    assert posewire.Skeleton.standard(sensors=["Head", "Pelvis"]).sensors == ["Head", "Pelvis"]
+    assert posewire.Skeleton.standard(sensors=[]).sensors == []
+    with pytest.raises(posewire.UsageError, match='expected names of segments as the sensors, found "Nose"'):
+        posewire.Skeleton.standard(sensors=["Nose"])
+    with pytest.raises(posewire.UsageError, match='found "Head" twice'):
+        posewire.Skeleton.standard(sensors=["Head", "Pelvis", "Head"])
 
 
 @pytest.mark.parametrize("props", [-1, 5, 200, 2**40, -(2**63), 2**64, 10**500])
@@ -85,10 +96,10 @@ def test_natnet_carries_any_skeleton():
     position, orientation = np.arange(9.0).reshape(3, 3), np.tile([1.0, 0, 0, 0], (3, 1))
     with posewire.streamer("natnet://127.0.0.1:0?data-port=0", skeleton=arm, names=["Robot"]) as streamer:
         with posewire.listen(streamer.urls[0]) as stream:
-            frame = None
-            while frame is None or frame.subject != "Robot":
-                streamer.send(position, orientation)
-                frame = stream.next(timeout=0.01)
+            until(lambda: streamer.notices)
+            streamer.send(position, orientation)
+            frame = stream.next(timeout=10)
+            assert frame.subject == "Robot"
             assert (frame.segments, frame.skeleton.parents) == (ARM, arm.parents)
             np.testing.assert_allclose(frame.position, position, atol=1e-6)
 

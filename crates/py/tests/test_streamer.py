@@ -5,19 +5,9 @@ import time
 
 import numpy as np
 import pytest
+from conftest import until
 
 import posewire
-
-
-def test_a_skeleton_says_which_segments_wear_sensors():
-    assert len(posewire.Skeleton.standard().sensors) == 17
-    assert posewire.Skeleton.standard(sensors=["Head", "Pelvis"]).sensors == ["Head", "Pelvis"]
-    assert posewire.Skeleton.standard(sensors=[]).sensors == []
-    with pytest.raises(posewire.UsageError, match='expected names of segments as the sensors, found "Nose"'):
-        posewire.Skeleton.standard(sensors=["Nose"])
-    with pytest.raises(posewire.UsageError, match='found "Head" twice'):
-        posewire.Skeleton.standard(sensors=["Head", "Pelvis", "Head"])
-
 
 STILL = np.tile([1.0, 0.0, 0.0, 0.0], (23, 1))
 
@@ -156,6 +146,16 @@ def test_what_natnet_does_not_carry_is_refused(walk):
             assert "velocity" in stream.next(timeout=10).sections
 
 
+def test_targets_are_told_in_the_order_given():
+    urls = ["mxtp://127.0.0.1:9", "natnet://127.0.0.1:0?data-port=0", "mxtp://127.0.0.1:10"]
+    with posewire.streamer(*urls) as streamer:
+        schemes = [url.split(":")[0] for url in streamer.urls]
+        assert schemes == ["mxtp", "natnet", "mxtp"] and streamer.urls[2].endswith(":10")
+        assert [target["endpoint"] for target in streamer.progress()["targets"]] == streamer.urls
+    with pytest.raises(posewire.UsageError, match="NatNet has no datagram types"):
+        posewire.streamer(urls[1], types="all")
+
+
 def test_contacts_and_events_have_no_place_on_the_wire(to_nobody, walk):
     for name in ["contacts", "events"]:
         with pytest.raises(posewire.UsageError, match=f"{name} cannot be sent: neither MXTP nor NatNet"):
@@ -202,13 +202,6 @@ def test_the_clocks_of_the_program_are_sent(walk):
         with posewire.streamer(stream.url, types="02") as streamer:
             with pytest.raises(posewire.UsageError, match="timecode is not sent: datagram type 25"):
                 streamer.send(**numbers(walk, *POSE), timecode=1)
-
-
-def until(is_so):
-    """Asks until it is so; numbers of a streamer are brought up to date ten times a second."""
-    end = time.monotonic() + 60
-    while not is_so():
-        assert time.monotonic() < end
 
 
 def test_what_a_slow_receiver_misses_is_counted(walk):

@@ -1,6 +1,6 @@
 //! Numbers of a subject that can be plotted, by name.
 
-use posewire_motion::{DQuat, DVec3, Frame, Section, Skeleton};
+use posewire_motion::{Frame, Section, Skeleton};
 use serde::Serialize;
 
 /// A group of channels: a section, its entries and their axes.
@@ -29,9 +29,7 @@ pub(crate) fn groups(skeleton: &Skeleton, present: u32) -> Vec<Group> {
 
 /// The sections that a frame has, a bit for each place of [`Section::ALL`].
 pub(crate) fn present(frame: &Frame) -> u32 {
-    let sections = Section::ALL.iter().copied();
-    let has = sections.filter(|&section| has(frame, section));
-    has.fold(0, |bits, section| bits | bit(section))
+    frame.sections().fold(0, |bits, section| bits | bit(section))
 }
 
 /// The sections of a live subject that has had these: they, and those that its poses tell of each frame.
@@ -77,11 +75,11 @@ impl Channel {
 
     /// What it is in a frame, angles in degrees; NaN where it was not tracked or not sent.
     pub(crate) fn value(self, frame: &Frame) -> f32 {
+        let entries = frame.entries(self.section);
         let value = match self.section.components() {
-            4 => quaternions(frame, self.section).get(self.entry).copied().flatten(),
-            _ => return (self.scale() * self.vector(frame)) as f32,
+            4 => entries.quaternion(self.entry).map(|q| [q.w, q.x, q.y, q.z][self.axis]),
+            _ => entries.vector(self.entry).map(|v| v[self.axis] * self.scale()),
         };
-        let value = value.map(|q| [q.w, q.x, q.y, q.z][self.axis]);
         value.unwrap_or(f64::NAN) as f32
     }
 
@@ -107,65 +105,5 @@ impl Channel {
         } else {
             1.0
         }
-    }
-
-    fn vector(self, frame: &Frame) -> f64 {
-        let vector = vector(frame, self.section, self.entry);
-        vector.map_or(f64::NAN, |vector| vector[self.axis])
-    }
-}
-
-fn has(frame: &Frame, section: Section) -> bool {
-    match section {
-        Section::Orientation | Section::SensorOrientation => !quaternions(frame, section).is_empty(),
-        Section::CenterOfMass | Section::CenterOfMassVelocity | Section::CenterOfMassAcceleration => {
-            center(frame, section).is_some()
-        }
-        _ => !vectors(frame, section).is_empty(),
-    }
-}
-
-fn vector(frame: &Frame, section: Section, entry: usize) -> Option<DVec3> {
-    match section {
-        Section::CenterOfMass | Section::CenterOfMassVelocity | Section::CenterOfMassAcceleration => {
-            center(frame, section)
-        }
-        _ => vectors(frame, section).get(entry).copied().flatten(),
-    }
-}
-
-fn center(frame: &Frame, section: Section) -> Option<DVec3> {
-    let center = frame.center_of_mass?;
-    match section {
-        Section::CenterOfMassVelocity => center.velocity,
-        Section::CenterOfMassAcceleration => center.acceleration,
-        _ => Some(center.position),
-    }
-}
-
-fn quaternions(frame: &Frame, section: Section) -> &[Option<DQuat>] {
-    match section {
-        Section::Orientation => &frame.orientation,
-        Section::SensorOrientation => &frame.sensor_orientation,
-        _ => &[],
-    }
-}
-
-fn vectors(frame: &Frame, section: Section) -> &[Option<DVec3>] {
-    match section {
-        Section::Position => &frame.position,
-        Section::Velocity => &frame.velocity,
-        Section::Acceleration => &frame.acceleration,
-        Section::AngularVelocity => &frame.angular_velocity,
-        Section::AngularAcceleration => &frame.angular_acceleration,
-        Section::JointAngles => &frame.joint_angles,
-        Section::JointAnglesXzy => &frame.joint_angles_xzy,
-        Section::ErgonomicAngles => &frame.ergonomic_angles,
-        Section::ErgonomicAnglesXzy => &frame.ergonomic_angles_xzy,
-        Section::SensorFreeAcceleration => &frame.sensor_free_acceleration,
-        Section::SensorAcceleration => &frame.sensor_acceleration,
-        Section::SensorAngularVelocity => &frame.sensor_angular_velocity,
-        Section::SensorMagneticField => &frame.sensor_magnetic_field,
-        _ => &[],
     }
 }

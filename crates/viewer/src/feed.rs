@@ -237,7 +237,8 @@ impl Newest {
         };
         self.frames += 1;
         let live = &mut self.subjects[id as usize];
-        if live.take(frame, self.frames, now) {
+        // One that a newer had overtaken would show the past; plots have every sample.
+        if !frame.late && live.take(frame, self.frames, now) {
             self.version += 1;
         }
         let rate = frame.subject.rate.or_else(|| live.rate.rate());

@@ -15,7 +15,7 @@ use crate::json;
 use bar::Bar;
 use plan::{Job, Plan, Source};
 use posewire::endpoint::FileFormat;
-use posewire::file::{ReadOptions, Recording, Saved, WriteOptions, read, rewrite, save};
+use posewire::file::{ReadOptions, Recording, Saved, read, rewrite, save};
 use posewire_motion::Section;
 use report::Report;
 use std::path::Path;
@@ -153,7 +153,7 @@ fn write(
     began: Instant,
 ) -> anyhow::Result<Report> {
     recording.cut(&plan.samples)?;
-    let computed = recording.complete(&wanted(job.format, &plan.writing));
+    let computed = recording.complete(plan.writing.needed(job.format));
     if let Some(rate) = plan.rate {
         recording.resample(rate)?;
     }
@@ -183,15 +183,6 @@ fn save_take(
         number += 1;
         let numbered = name.map_or_else(|| number.to_string(), |name| format!("{name}_{number}"));
         target = job.target(Some(&numbered));
-    }
-}
-
-/// The sections without which there is nothing to write, or that were asked for by name.
-fn wanted(format: FileFormat, options: &WriteOptions) -> Vec<Section> {
-    match (&options.sections, format) {
-        (Some(sections), _) => sections.clone(),
-        (None, FileFormat::Mot) => vec![Section::JointAngles],
-        _ => Vec::new(),
     }
 }
 

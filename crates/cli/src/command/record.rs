@@ -9,8 +9,8 @@ use crate::cli::Record;
 use crate::context::{self, Teller, end_progress, say, show_progress, shows_progress};
 use crate::error::Usage;
 use crate::{json, render};
-use posewire::capture::Format;
-use posewire::endpoint::{Endpoint, FileFormat};
+use posewire::endpoint::Endpoint;
+use posewire::recording::check_ending;
 use posewire::sink::{RecordOptions, RecordProgress, RecordSink};
 use posewire::source::PlaybackOptions;
 use posewire::stats::Statistics;
@@ -22,7 +22,7 @@ use std::time::{Duration, Instant};
 
 pub(super) fn run(arguments: &Record) -> anyhow::Result<End> {
     let stop = context::stop_on_interrupt()?;
-    refuse(arguments)?;
+    check_ending(&arguments.output)?;
     let sources = open(&arguments.urls)?;
     if let Some(address) = arguments.remote {
         return takes::run(arguments, address, sources, &stop);
@@ -55,29 +55,6 @@ pub(super) fn run(arguments: &Record) -> anyhow::Result<End> {
         say(render::recorded(&progress, begun.elapsed()));
     }
     end(&progress, outcome, &teller)
-}
-
-/// Refuses to write a recording under a name that says something else.
-fn refuse(arguments: &Record) -> Result<(), Usage> {
-    let name = arguments.output.to_string_lossy().to_lowercase();
-    let takes = FileFormat::ALL.iter().map(|format| format.ending());
-    let captures = [Format::Pcap, Format::PcapNg].map(Format::ending);
-    let Some(other) = captures
-        .into_iter()
-        .chain(takes)
-        .find(|ending| name.ends_with(&format!(".{ending}")))
-    else {
-        return Ok(());
-    };
-    let output = arguments.output.with_extension("mcap");
-    Err(Usage {
-        problem: format!("record writes MCAP files, {} says {other}", arguments.output.display()),
-        help: format!(
-            "-o {0}; posewire convert {0} {1} makes the other of it",
-            output.display(),
-            arguments.output.display()
-        ),
-    })
 }
 
 /// Opens live sources; what is no live source is not recorded.

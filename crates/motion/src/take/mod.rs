@@ -1,7 +1,6 @@
 //! A recorded take.
 
 mod contacts;
-mod lists;
 mod markers;
 mod order;
 mod read;
@@ -9,7 +8,6 @@ mod unused;
 
 use crate::{Column, Error, Frame, Section, Stamp, Subject, Timecode};
 use contacts::Contacts;
-use lists::List;
 use markers::Markers;
 pub use order::Reordered;
 pub use read::Frames;
@@ -111,9 +109,9 @@ impl Take {
         self.check(frame)?;
         let (place, mut present) = (self.len(), 0);
         for &section in Section::ALL {
-            let list = List::of(frame, section);
-            if list.len() > 0 {
-                list.write(self.column_mut(section, list.len()).values_mut());
+            let entries = frame.entries(section);
+            if !entries.is_empty() {
+                entries.write(self.column_mut(section, entries.len()).values_mut());
                 present |= bit(section);
             } else if let Some(column) = self.filled_mut(section) {
                 column.pad(place + 1);
@@ -232,7 +230,7 @@ impl Take {
             found,
         };
         for &section in Section::ALL {
-            let (expected, found) = (self.entries(section), List::of(frame, section).len());
+            let (expected, found) = (self.entries(section), frame.entries(section).len());
             if found != 0 && found != expected {
                 return Err(wrong(section.name(), expected, found));
             }

@@ -1,6 +1,6 @@
 //! What a take tells: columns, and frames made of them.
 
-use super::{CONTACTS, Take, bit, lists};
+use super::{CONTACTS, Take, bit};
 use crate::time::seconds;
 use crate::{Column, Frame, Marker, Section, Timecode};
 use std::iter::FusedIterator;
@@ -110,7 +110,7 @@ impl Take {
         frame.timecode = self.timecodes[place];
         for column in self.columns.iter().flatten() {
             if self.has(place, column.section()) {
-                lists::read_row(column.section(), column.row(place), frame);
+                frame.set_entries(column.section(), column.row(place));
             }
         }
         frame.contacts.extend_from_slice(self.contacts(place));

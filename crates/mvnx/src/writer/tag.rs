@@ -46,7 +46,7 @@ impl Tags {
         let Some(rate) = self.rate.filter(|rate| rate.is_finite() && *rate > 0.0) else {
             return clock(timecode, self.rate);
         };
-        let seconds = f64::from(timecode.milliseconds()) / 1000.0;
+        let seconds = timecode.seconds();
         let counted = self
             .counted
             .map(|(first, number)| number + i64::from(sample) - i64::from(first));

@@ -110,7 +110,7 @@ fn write(frame: &mut Frame, skeleton: &Skeleton, place: Place, value: DVec3) {
     }
 }
 
-fn is_finger(skeleton: &Skeleton, place: usize) -> bool {
+pub(super) fn is_finger(skeleton: &Skeleton, place: usize) -> bool {
     let kind = skeleton.segments.get(place).map(|segment| segment.kind);
     matches!(kind, Some(SegmentKind::LeftFinger | SegmentKind::RightFinger))
 }

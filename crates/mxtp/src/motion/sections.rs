@@ -1,8 +1,9 @@
 //! Which message types carry which sections of a frame.
 
 use super::MessageTypes;
+use super::joints::is_finger;
 use crate::MessageType;
-use posewire_motion::Section;
+use posewire_motion::{Frame, Section, Skeleton};
 
 /// The sections of a frame that a message of this type holds, in the order of [`Section::ALL`]; none for types that hold something
 /// else, as the timecode, and for those that are not part of a sample.
@@ -48,6 +49,35 @@ pub fn carriers(section: Section) -> MessageTypes {
     MessageTypes::ALL.iter().filter(carries).collect()
 }
 
+/// The sections without which a message of this type cannot hold what the frame has of the others: all of the type, but
+/// ergonomic angles, which type 20 can leave out, and what the frame itself leaves out together: the velocity and acceleration of
+/// the centre of mass, and the acceleration and angular velocity of the sensors (type 23 in its short form).
+pub fn needed_sections(frame: &Frame, message_type: MessageType) -> impl Iterator<Item = Section> {
+    let has = |section| !frame.entries(section).is_empty();
+    let is_moving = has(Section::CenterOfMassVelocity) || has(Section::CenterOfMassAcceleration);
+    let is_inertial = has(Section::SensorAcceleration) || has(Section::SensorAngularVelocity);
+    let is_needed = move |section: &Section| match section {
+        Section::ErgonomicAngles => false,
+        Section::SensorAcceleration | Section::SensorAngularVelocity => is_inertial,
+        Section::CenterOfMassVelocity | Section::CenterOfMassAcceleration => is_moving,
+        _ => true,
+    };
+    sections(message_type).iter().copied().filter(is_needed)
+}
+
+/// Whether a message of this type has a place for an entry of a section that it carries: type 05 has no fingers, and type 20 no
+/// angles of theirs.
+pub fn has_place(skeleton: &Skeleton, message_type: MessageType, section: Section, entry: usize) -> bool {
+    let segment = match message_type {
+        MessageType::UNITY => Some(entry),
+        MessageType::JOINT_ANGLES if section == Section::JointAngles => {
+            skeleton.joints.get(entry).map(|joint| joint.child.segment)
+        }
+        _ => None,
+    };
+    !segment.is_some_and(|segment| is_finger(skeleton, segment))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -84,31 +114,6 @@ mod tests {
         frame
     }
 
-    fn has(frame: &Frame, section: Section) -> bool {
-        let center = frame.center_of_mass;
-        match section {
-            Section::Position => !frame.position.is_empty(),
-            Section::Orientation => !frame.orientation.is_empty(),
-            Section::Velocity => !frame.velocity.is_empty(),
-            Section::Acceleration => !frame.acceleration.is_empty(),
-            Section::AngularVelocity => !frame.angular_velocity.is_empty(),
-            Section::AngularAcceleration => !frame.angular_acceleration.is_empty(),
-            Section::JointAngles => !frame.joint_angles.is_empty(),
-            Section::JointAnglesXzy => !frame.joint_angles_xzy.is_empty(),
-            Section::ErgonomicAngles => !frame.ergonomic_angles.is_empty(),
-            Section::ErgonomicAnglesXzy => !frame.ergonomic_angles_xzy.is_empty(),
-            Section::SensorOrientation => !frame.sensor_orientation.is_empty(),
-            Section::SensorFreeAcceleration => !frame.sensor_free_acceleration.is_empty(),
-            Section::SensorAcceleration => !frame.sensor_acceleration.is_empty(),
-            Section::SensorAngularVelocity => !frame.sensor_angular_velocity.is_empty(),
-            Section::SensorMagneticField => !frame.sensor_magnetic_field.is_empty(),
-            Section::CenterOfMass => center.is_some(),
-            Section::CenterOfMassVelocity => center.is_some_and(|center| center.velocity.is_some()),
-            Section::CenterOfMassAcceleration => center.is_some_and(|center| center.acceleration.is_some()),
-            other => panic!("{other} is new: which types carry it?"),
-        }
-    }
-
     #[test]
     fn what_a_type_carries_is_what_arrives_of_it() {
         let sent = full();
@@ -125,13 +130,31 @@ mod tests {
                 let datagram = Datagram::decode(bytes).unwrap();
                 filler.fill(&mut received, &datagram.header, &datagram.body);
             }
-            let arrived: Vec<_> = Section::ALL
-                .iter()
-                .copied()
-                .filter(|section| has(&received, *section))
-                .collect();
+            let arrived: Vec<_> = received.sections().collect();
             assert_eq!(arrived, sections(message_type), "type {message_type}");
         }
+    }
+
+    #[test]
+    fn sensors_are_sent_with_all_their_sections_or_with_three() {
+        let mut frame = full();
+        assert_eq!(needed_sections(&frame, MessageType::TRACKERS).count(), 5);
+        frame.sensor_acceleration.clear();
+        assert_eq!(needed_sections(&frame, MessageType::TRACKERS).count(), 5);
+        frame.sensor_angular_velocity.clear();
+        assert_eq!(needed_sections(&frame, MessageType::TRACKERS).count(), 3);
+    }
+
+    #[test]
+    fn some_types_have_no_fingers() {
+        let mut skeleton = Skeleton::standard(0, true);
+        skeleton.joints[7].child.segment = 30;
+        let has = |message_type, section, entry| has_place(&skeleton, message_type, section, entry);
+        assert!(has(MessageType::UNITY, Section::Position, 22) && !has(MessageType::UNITY, Section::Position, 23));
+        let angles = (MessageType::JOINT_ANGLES, Section::JointAngles);
+        assert!(has(angles.0, angles.1, 6) && !has(angles.0, angles.1, 7));
+        assert!(has(MessageType::QUATERNION, Section::Position, 40));
+        assert!(has(MessageType::JOINT_ANGLES, Section::ErgonomicAngles, 5));
     }
 
     #[test]

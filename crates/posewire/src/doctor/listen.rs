@@ -72,7 +72,7 @@ impl Listener {
 
     fn open_capture(endpoint: &Endpoint, options: &PlaybackOptions) -> Result<Self> {
         let options = PlaybackOptions {
-            speed: AT_ONCE,
+            speed: PlaybackOptions::AT_ONCE,
             ..options.clone()
         };
         let sources = Source::open_all(endpoint, &options)?;
@@ -198,7 +198,5 @@ impl<'a> Listening<'a> {
     }
 }
 
-/// As many times as fast as it was captured; then only reading takes time.
-const AT_ONCE: f64 = 1e6;
 /// After so long a silence other ports are listened to.
 const QUIET: Duration = Duration::from_secs(1);

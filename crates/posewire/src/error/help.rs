@@ -72,6 +72,11 @@ impl Error {
             Self::TooManyTargets { .. } => Some("start the stream anew, or send to a multicast group".into()),
             Self::Stopped { .. } => Some("nothing was left half written; start again when you like".into()),
             Self::Feature { feature, .. } => Some(format!("cargo install --path crates/cli --features {feature}")),
+            Self::NotAsRecorded { path, .. } => Some(format!(
+                "name it {0}; posewire convert {0} {1} makes the other of it",
+                path.with_extension("mcap").display(),
+                path.display()
+            )),
             Self::NotMcap { .. } => Some("give a file that posewire record has written".into()),
             Self::DamagedWithin { .. } => Some("-o FILE writes what comes before the damage to another file".into()),
             Self::Compressed { .. } => {

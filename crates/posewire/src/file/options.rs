@@ -41,6 +41,16 @@ impl WriteOptions {
         }
     }
 
+    /// The sections that a take is to have, computed where it lacks them: those that were asked for by name, and without which there
+    /// is nothing to write.
+    pub fn needed(&self, format: FileFormat) -> &[Section] {
+        match (&self.sections, format) {
+            (Some(sections), _) => sections,
+            (None, FileFormat::Mot) => &[Section::JointAngles],
+            (None, _) => &[],
+        }
+    }
+
     /// The sections of a take that were asked for, in the order of [`Section::ALL`].
     pub(super) fn sections_of<'a>(&'a self, take: &'a Take) -> impl Iterator<Item = Section> + 'a {
         let asked = self.sections.as_deref();
@@ -119,4 +129,18 @@ pub struct BvhOptions {
 pub struct ParquetOptions {
     /// Whether numbers are whole millionths of their unit: lossless for what came from MVNX, and small.
     pub micro_units: bool,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_of_angles_needs_angles_and_what_is_named_is_needed() {
+        let mut options = WriteOptions::default();
+        assert_eq!(options.needed(FileFormat::Mot), [Section::JointAngles]);
+        assert_eq!(options.needed(FileFormat::Csv), []);
+        options.sections = Some(vec![Section::Velocity]);
+        assert_eq!(options.needed(FileFormat::Mot), [Section::Velocity]);
+    }
 }

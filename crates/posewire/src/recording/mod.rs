@@ -6,6 +6,7 @@
 mod briefing;
 mod described;
 mod description;
+mod ending;
 mod format;
 mod lock;
 mod names;
@@ -22,6 +23,7 @@ mod take_name;
 mod writer;
 
 pub(crate) use briefing::Briefing;
+pub use ending::check_ending;
 pub(crate) use format::is_continued;
 pub use format::{
     CONTINUED, END, FROM, KIND, NAME, POSES, RAW, RECORDING, REPEATED, SOURCE, SOURCE_RECORD, SUBJECT, SUBJECT_RECORD,

@@ -62,6 +62,9 @@ impl Default for PlaybackOptions {
 }
 
 impl PlaybackOptions {
+    /// A [`speed`](Self::speed) at which only reading takes time.
+    pub const AT_ONCE: f64 = 1e6;
+
     /// What of a capture is played, of all its sources.
     pub(crate) fn selection(&self) -> Selection {
         Selection {

@@ -35,7 +35,8 @@ pub(crate) use stream::Stream;
 #[pyfunction]
 #[pyo3(signature = (*urls, capacity = Whole::of(8192), on_overflow = "raise", stale_after = 0.1, lost_after = 1.0, r#loop = false,
     speed = 1.0, only = None),
-    text_signature = "(*urls, capacity=8192, on_overflow='raise', stale_after=0.1, lost_after=1.0, loop=False, speed=1.0, only=None)")]
+    text_signature = "(*urls, capacity=8192, on_overflow='raise', stale_after=0.1, lost_after=1.0, loop=False, speed=1.0, \
+        only=None)")]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub(crate) fn listen(
     py: Python<'_>,

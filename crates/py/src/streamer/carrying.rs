@@ -1,10 +1,9 @@
 //! What the protocols of a streamer carry: what is given is sent, or refused with a reason.
 
 use crate::error::usage;
-use crate::section::List;
-use posewire_motion::{Frame, Per, Section, SegmentKind};
+use posewire_motion::{Frame, Per, Section};
 use posewire_mxtp::MessageType;
-use posewire_mxtp::motion::{MessageTypes, carriers, lacks, sections};
+use posewire_mxtp::motion::{MessageTypes, carriers, has_place, lacks, needed_sections};
 use pyo3::prelude::*;
 
 /// What the targets of a streamer carry together.
@@ -17,6 +16,11 @@ pub(super) struct Carrying {
 }
 
 impl Carrying {
+    /// The last number that a sample can have.
+    pub(super) fn last_sample(self) -> u32 {
+        if self.natnet { i32::MAX as u32 } else { u32::MAX }
+    }
+
     /// Checks that every number of these sections of a frame goes out to some target.
     pub(super) fn check(self, frame: &Frame, given: &[Section]) -> PyResult<()> {
         given.iter().try_for_each(|section| self.check_section(frame, *section))
@@ -58,25 +62,14 @@ impl Carrying {
     }
 }
 
-/// The sections without which a message of this type cannot hold what the frame has.
-fn needed(frame: &Frame, carrier: MessageType) -> impl Iterator<Item = Section> {
-    let is_moving = has(frame, Section::CenterOfMassVelocity) || has(frame, Section::CenterOfMassAcceleration);
-    let is_inertial = has(frame, Section::SensorAcceleration) || has(frame, Section::SensorAngularVelocity);
-    let is_needed = move |section: &Section| match section {
-        Section::ErgonomicAngles => false,
-        Section::SensorAcceleration | Section::SensorAngularVelocity => is_inertial,
-        Section::CenterOfMassVelocity | Section::CenterOfMassAcceleration => is_moving,
-        _ => true,
-    };
-    sections(carrier).iter().copied().filter(is_needed)
-}
-
 fn missing(frame: &Frame, carrier: MessageType) -> Vec<Section> {
-    needed(frame, carrier).filter(|section| !has(frame, *section)).collect()
+    needed_sections(frame, carrier)
+        .filter(|section| !has(frame, *section))
+        .collect()
 }
 
 fn has(frame: &Frame, section: Section) -> bool {
-    List::of(frame, section).len() > 0
+    !frame.entries(section).is_empty()
 }
 
 /// Checks that each entry that is known goes out in one of these types, for which the frame has the sections.
@@ -89,12 +82,12 @@ fn check_entries(frame: &Frame, section: Section, carriers: &[MessageType]) -> P
     }
     let goes = |place: usize, carrier: &MessageType| {
         section == Section::ErgonomicAngles
-            || has_place(frame, section, place, *carrier)
-                && needed(frame, *carrier).all(|needed| is_known(frame, needed, place))
+            || has_place(&frame.subject.skeleton, *carrier, section, place)
+                && needed_sections(frame, *carrier).all(|needed| is_known(frame, needed, place))
     };
     let stays =
         |place: &usize| is_known(frame, section, *place) && !carriers.iter().any(|carrier| goes(*place, carrier));
-    let found = (0..List::of(frame, section).len()).find(stays);
+    let found = (0..frame.entries(section).len()).find(stays);
     found.map_or(Ok(()), |place| Err(halved(frame, section, place, carriers[0])))
 }
 
@@ -103,24 +96,8 @@ fn is_all_or_nothing(frame: &Frame) -> bool {
     known == 0 || known == frame.ergonomic_angles.len()
 }
 
-/// Type 05 has no fingers, and type 20 no angles of theirs.
-fn has_place(frame: &Frame, section: Section, place: usize, carrier: MessageType) -> bool {
-    let skeleton = &frame.subject.skeleton;
-    let segment = match carrier {
-        MessageType::UNITY => Some(place),
-        MessageType::JOINT_ANGLES if section == Section::JointAngles => {
-            skeleton.joints.get(place).map(|joint| joint.child.segment)
-        }
-        _ => None,
-    };
-    let kind = segment
-        .and_then(|segment| skeleton.segments.get(segment))
-        .map(|segment| segment.kind);
-    !matches!(kind, Some(SegmentKind::LeftFinger | SegmentKind::RightFinger))
-}
-
 fn is_known(frame: &Frame, section: Section, place: usize) -> bool {
-    List::of(frame, section).is_known(place)
+    frame.entries(section).is_tracked(place)
 }
 
 /// For a section that no target has a place for.
@@ -179,7 +156,7 @@ fn alone(frame: &Frame, section: Section, carrier: MessageType) -> PyErr {
 /// For an entry that is known, and not in all the sections that its type needs.
 fn halved(frame: &Frame, section: Section, place: usize, carrier: MessageType) -> PyErr {
     let label = section.labels(&frame.subject.skeleton).nth(place).unwrap_or_default();
-    let unknown = needed(frame, carrier).find(|needed| !is_known(frame, *needed, place));
+    let unknown = needed_sections(frame, carrier).find(|needed| !is_known(frame, *needed, place));
     match unknown {
         Some(unknown) => usage(
             format!("expected the {unknown} of {label} beside its {section}, found none"),

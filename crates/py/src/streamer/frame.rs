@@ -1,64 +1,76 @@
 //! From arrays of numpy to a frame.
 
 use super::carrying::Carrying;
-use super::numbers::{quaternions, vectors};
+use super::numbers::checked;
 use crate::error::usage;
-use posewire_motion::{CenterOfMass, DVec3, Frame, Section, Timecode};
+use crate::section::named;
+use posewire_motion::{Frame, Section, Timecode};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use std::time::Duration;
 
-/// Gives a frame the numbers of a section.
-pub(super) fn set(frame: &mut Frame, section: Section, numbers: &Bound<'_, PyAny>) -> PyResult<()> {
-    let subject = frame.subject.clone();
-    if matches!(section, Section::Orientation | Section::SensorOrientation) {
-        let rotations = quaternions(&subject.skeleton, section, numbers)?;
-        match section {
-            Section::Orientation => frame.orientation = rotations,
-            _ => frame.sensor_orientation = rotations,
-        }
-        return Ok(());
+/// A section, and what Python gives as its numbers.
+type Given<'py> = (Section, Bound<'py, PyAny>);
+
+/// What a sample is given: poses by their places, other sections by their names. They stand in the order of [`Section::ALL`], in
+/// which one follows what it needs.
+pub(super) fn given<'py>(
+    position: Option<&Bound<'py, PyAny>>,
+    orientation: Option<&Bound<'py, PyAny>>,
+    sections: Option<&Bound<'py, PyDict>>,
+) -> PyResult<Vec<Given<'py>>> {
+    let poses = [(Section::Position, position), (Section::Orientation, orientation)];
+    let poses = poses.map(|(section, numbers)| Some((section, numbers?.clone())));
+    let named = sections.into_iter().flatten().map(named_section);
+    let mut given = poses
+        .into_iter()
+        .flatten()
+        .map(Ok)
+        .chain(named)
+        .collect::<PyResult<Vec<_>>>()?;
+    given.sort_by_key(|(section, _)| *section);
+    if given.is_empty() {
+        return Err(usage(
+            "expected something to send, found nothing",
+            "give position and orientation, or sections by their names: joint_angles=",
+        ));
     }
-    let vectors = vectors(&subject.skeleton, section, numbers)?;
-    match section {
-        Section::Position => frame.position = vectors,
-        Section::Velocity => frame.velocity = vectors,
-        Section::Acceleration => frame.acceleration = vectors,
-        Section::AngularVelocity => frame.angular_velocity = vectors,
-        Section::AngularAcceleration => frame.angular_acceleration = vectors,
-        Section::JointAngles => frame.joint_angles = vectors,
-        Section::JointAnglesXzy => frame.joint_angles_xzy = vectors,
-        Section::ErgonomicAngles => frame.ergonomic_angles = vectors,
-        Section::ErgonomicAnglesXzy => frame.ergonomic_angles_xzy = vectors,
-        Section::SensorFreeAcceleration => frame.sensor_free_acceleration = vectors,
-        Section::SensorAcceleration => frame.sensor_acceleration = vectors,
-        Section::SensorAngularVelocity => frame.sensor_angular_velocity = vectors,
-        Section::SensorMagneticField => frame.sensor_magnetic_field = vectors,
-        section => set_center_of_mass(frame, section, vectors.first().copied().flatten())?,
-    }
-    Ok(())
+    Ok(given)
 }
 
-/// Velocity and acceleration follow the position, which is what makes a centre of mass.
-fn set_center_of_mass(frame: &mut Frame, section: Section, value: Option<DVec3>) -> PyResult<()> {
-    if section == Section::CenterOfMass {
-        frame.center_of_mass = value.map(|position| CenterOfMass {
-            position,
-            velocity: None,
-            acceleration: None,
-        });
-        return Ok(());
+fn named_section<'py>((name, numbers): (Bound<'py, PyAny>, Bound<'py, PyAny>)) -> PyResult<Given<'py>> {
+    let name = name.extract::<String>()?;
+    if UNSENDABLE.contains(&name.as_str()) {
+        return Err(usage(
+            format!("{name} cannot be sent: neither MXTP nor NatNet has a place for them"),
+            "leave them out; files hold them",
+        ));
     }
-    match (&mut frame.center_of_mass, section) {
-        (Some(whole), Section::CenterOfMassVelocity) => whole.velocity = value,
-        (Some(whole), _) => whole.acceleration = value,
-        (None, _) if value.is_none() => {}
-        (None, _) => {
-            return Err(usage(
-                format!("expected the position of the centre of mass beside {section}, found none"),
-                "give center_of_mass= as well",
-            ));
-        }
+    Ok((named(&[name])?[0], numbers))
+}
+
+/// Gives a frame these numbers, each of which goes out to some target.
+pub(super) fn fill(frame: &mut Frame, carrying: Carrying, given: Vec<Given<'_>>) -> PyResult<()> {
+    for (section, numbers) in &given {
+        set(frame, *section, numbers)?;
     }
+    let sections: Vec<_> = given.into_iter().map(|(section, _)| section).collect();
+    carrying.check(frame, &sections)
+}
+
+fn set(frame: &mut Frame, section: Section, numbers: &Bound<'_, PyAny>) -> PyResult<()> {
+    let numbers = checked(&frame.subject.skeleton, section, numbers)?;
+    let follows = matches!(
+        section,
+        Section::CenterOfMassVelocity | Section::CenterOfMassAcceleration
+    );
+    if follows && frame.center_of_mass.is_none() && !numbers[0].is_nan() {
+        return Err(usage(
+            format!("expected the position of the centre of mass beside {section}, found none"),
+            "give center_of_mass= as well",
+        ));
+    }
+    frame.set_entries(section, &numbers);
     Ok(())
 }
 
@@ -76,13 +88,17 @@ pub(super) fn clock(seconds: f64, carrying: Carrying) -> PyResult<Duration> {
     Ok(time)
 }
 
-/// A time of day.
-pub(super) fn timecode(seconds: f64) -> PyResult<Timecode> {
+/// A time of day that goes out.
+pub(super) fn time_of_day(seconds: f64, carrying: Carrying) -> PyResult<Timecode> {
     if !(0.0..86_400.0).contains(&seconds) {
         return Err(usage(
             format!("expected seconds from 0 to 86400 as the timecode, found {seconds}"),
             "they are counted from midnight, UTC: time.time() % 86400",
         ));
     }
+    carrying.check_timecode()?;
     Ok(Timecode::from_milliseconds((seconds * 1000.0).round() as u64))
 }
+
+/// What a frame of a file can have besides sections, and no protocol carries.
+const UNSENDABLE: [&str; 2] = ["contacts", "events"];

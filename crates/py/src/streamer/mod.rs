@@ -2,6 +2,7 @@
 
 mod carrying;
 mod frame;
+mod names;
 mod numbering;
 mod numbers;
 mod opening;
@@ -10,15 +11,14 @@ mod told;
 use crate::error::{exception, raised, usage};
 use crate::number::Whole;
 use crate::process::Opened;
-use crate::section::named;
 use crate::skeleton::Skeleton;
 use carrying::Carrying;
-use frame::{clock, set, timecode};
+use frame::{clock, fill, given, time_of_day};
 use numbering::Numbering;
 pub(crate) use opening::streamer;
 use posewire::sink::Progress;
 use posewire::{Feed, Item, Session};
-use posewire_motion::{Frame, Section, Subject};
+use posewire_motion::{Frame, Subject};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -33,6 +33,7 @@ pub(crate) struct Streamer {
     /// What ended it.
     failure: Mutex<Option<posewire::Error>>,
     rate: f64,
+    /// At least one.
     subjects: Vec<Arc<Subject>>,
     carrying: Carrying,
     numbering: Mutex<Numbering>,
@@ -76,6 +77,12 @@ impl Streamer {
                 "give its name, or its place in names=, counted from 0",
             )
         })
+    }
+
+    /// The number of the sample of a subject that is sent now.
+    fn number(&self, place: usize, given: Option<u32>) -> u32 {
+        let mut numbering = self.numbering.lock().unwrap_or_else(PoisonError::into_inner);
+        numbering.number(place, given)
     }
 
     fn push(&self, frame: Frame) -> Result<(), Ended> {
@@ -126,7 +133,7 @@ enum Ended {
 
 #[pymethods]
 impl Streamer {
-    /// Where it sends to.
+    /// Where it sends to, in the order given, with the ports that the system chose.
     #[getter]
     fn urls(&self) -> Vec<String> {
         self.urls.clone()
@@ -134,20 +141,22 @@ impl Streamer {
 
     /// The segments that positions and orientations are for.
     #[getter]
-    fn skeleton(&self) -> Option<Skeleton> {
-        let subject = self.subjects.first().map(Arc::clone);
-        subject.map(|subject| Skeleton { subject })
+    fn skeleton(&self) -> Skeleton {
+        Skeleton {
+            subject: Arc::clone(&self.subjects[0]),
+        }
     }
 
     /// Sends a sample of the subject at a place of `names`, or of that name.
     ///
-    /// `position` is (segments, 3) in metres, `orientation` (segments, 4), w first; NaN is not tracked. Other sections come by their
-    /// names: velocity=, joint_angles=, sensor_orientation= ... Whatever is given is sent to a target that has a place for it. Quaternions
-    /// whose length is within 0.001 of 1 are made so long.
+    /// `position` is (segments, 3) in metres, `orientation` (segments, 4), w first; NaN is not tracked. Other sections come by
+    /// their names: velocity=, joint_angles=, sensor_orientation= ... Whatever is given is sent to a target that has a place for
+    /// it. Quaternions whose length is within 0.001 of 1 are made so long.
     ///
-    /// `sample` is the number of the sample. Left out, it is the same for all subjects of a moment, which ends when one of them is sent
-    /// again: over NatNet they share a frame, which leaves when it has all of them or the next moment begins.
-    /// `time` is the program's own clock in seconds from 0, the number by the rate if left out; `timecode` is the time of day, UTC, in seconds since midnight.
+    /// `sample` is the number of the sample. Left out, it is the same for all subjects of a moment, which ends when one of them is
+    /// sent again: over NatNet they share a frame, which leaves when it has all of them or the next moment begins. `time` is the
+    /// program's own clock in seconds from 0, the number by the rate if left out; `timecode` is the time of day, UTC, in seconds
+    /// since midnight.
     ///
     /// Raises UsageError for arrays that do not fit the skeleton and for what no target has a place for, ClosedError after the end,
     /// and what ended the sending.
@@ -171,36 +180,12 @@ impl Streamer {
         }
         let place = self.place(subject)?;
         let mut frame = Frame::new(Arc::clone(&self.subjects[place]));
-        let poses = [(Section::Position, position), (Section::Orientation, orientation)];
-        let poses = poses
-            .into_iter()
-            .filter_map(|(section, numbers)| Some((section, numbers?.clone())));
-        let sections: Vec<_> = poses.chain(named_sections(sections)?).collect();
-        if sections.is_empty() {
-            return Err(usage(
-                "expected something to send, found nothing",
-                "give position and orientation, or sections by their names: joint_angles=",
-            ));
-        }
-        for (section, numbers) in &sections {
-            set(&mut frame, *section, numbers)?;
-        }
-        let given: Vec<_> = sections.iter().map(|(section, _)| *section).collect();
-        self.carrying.check(&frame, &given)?;
-        if let Some(seconds) = timecode {
-            frame.timecode = Some(self::timecode(seconds)?);
-            self.carrying.check_timecode()?;
-        }
-        let most = if self.carrying.natnet {
-            i32::MAX as u32
-        } else {
-            u32::MAX
-        };
-        let sample = sample.map(|sample| sample.within("sample", 0..=most)).transpose()?;
+        fill(&mut frame, self.carrying, given(position, orientation, sections)?)?;
+        frame.timecode = timecode.map(|time| time_of_day(time, self.carrying)).transpose()?;
+        let last = self.carrying.last_sample();
+        let sample = sample.map(|sample| sample.within("sample", 0..=last)).transpose()?;
         let time = time.map(|time| clock(time, self.carrying)).transpose()?;
-        let mut numbering = self.numbering.lock().unwrap_or_else(PoisonError::into_inner);
-        frame.sample = numbering.number(place, sample);
-        drop(numbering);
+        frame.sample = self.number(place, sample);
         let by_rate = || Duration::from_secs_f64(f64::from(frame.sample) / self.rate);
         frame.time = time.unwrap_or_else(by_rate);
         py.detach(|| self.push(frame)).map_err(|ended| match ended {
@@ -209,16 +194,16 @@ impl Streamer {
         })
     }
 
-    /// Datagrams, and of TCP samples, that did not reach their target for a reason on this side: a TCP peer was too slow for them or
-    /// away, the network had no room, the system refused them. What gets lost behind that only the receiver can know.
+    /// Datagrams, and of TCP samples, that did not reach their target for a reason on this side: a TCP peer was too slow for them
+    /// or away, the network had no room, the system refused them. What gets lost behind that only the receiver can know.
     #[getter]
     fn dropped(&self, py: Python<'_>) -> PyResult<u64> {
         self.running.here()?;
         Ok(py.detach(|| self.progress_now().lost()))
     }
 
-    /// How far it has come, as `posewire stream --json` tells it: a dict of frames, lost, lateness_ms, targets with their numbers and
-    /// their clients, and what is left_out. It goes on until it is closed, and stays after that.
+    /// How far it has come, as `posewire stream --json` tells it: a dict of frames, lost, lateness_ms, targets with their numbers
+    /// and their clients, and what is left_out. It goes on until it is closed, and stays after that.
     fn progress<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.running.here()?;
         let progress = py.detach(|| self.progress_now());
@@ -267,30 +252,3 @@ impl Streamer {
         format!("<posewire.Streamer to {}>", self.urls.join(", "))
     }
 }
-
-/// Sections by their names, in the order of [`Section::ALL`], in which one follows what it needs.
-fn named_sections<'py>(given: Option<&Bound<'py, PyDict>>) -> PyResult<Vec<(Section, Bound<'py, PyAny>)>> {
-    let mut sections = given
-        .into_iter()
-        .flatten()
-        .map(named_section)
-        .collect::<PyResult<Vec<_>>>()?;
-    sections.sort_by_key(|(section, _)| *section);
-    Ok(sections)
-}
-
-fn named_section<'py>(
-    (name, numbers): (Bound<'py, PyAny>, Bound<'py, PyAny>),
-) -> PyResult<(Section, Bound<'py, PyAny>)> {
-    let name = name.extract::<String>()?;
-    if UNSENDABLE.contains(&name.as_str()) {
-        return Err(usage(
-            format!("{name} cannot be sent: neither MXTP nor NatNet has a place for them"),
-            "leave them out; files hold them",
-        ));
-    }
-    Ok((named(&[name])?[0], numbers))
-}
-
-/// What a frame of a file can have besides sections, and no protocol carries.
-const UNSENDABLE: [&str; 2] = ["contacts", "events"];

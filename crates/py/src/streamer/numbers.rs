@@ -2,55 +2,35 @@
 
 use crate::error::usage;
 use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
-use posewire_motion::{DQuat, DVec3, Section, Skeleton};
+use posewire_motion::{Section, Skeleton};
 use pyo3::exceptions::PyException;
 use pyo3::prelude::*;
 
-/// The vectors of a section, `None` where one is NaN.
-pub(super) fn vectors(
-    skeleton: &Skeleton,
-    section: Section,
-    numbers: &Bound<'_, PyAny>,
-) -> PyResult<Vec<Option<DVec3>>> {
+/// The numbers of a section, those of an entry side by side, all NaN where it is not tracked.
+pub(super) fn checked(skeleton: &Skeleton, section: Section, numbers: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     let array = array(skeleton, section, numbers)?;
-    let entries = rows::<3>(&array)?.into_iter().enumerate();
-    let vector = |(place, row)| Ok(tracked(skeleton, section, place, row)?.map(DVec3::from_array));
-    entries.map(vector).collect()
+    let mut numbers: Vec<_> = array.try_readonly()?.as_array().iter().copied().collect();
+    for (place, entry) in numbers.chunks_exact_mut(section.components()).enumerate() {
+        if is_tracked(skeleton, section, place, entry)? && entry.len() == 4 {
+            normalize(skeleton, section, place, entry)?;
+        }
+    }
+    Ok(numbers)
 }
 
-/// The rotations of a section, `None` where one is NaN.
-pub(super) fn quaternions(
-    skeleton: &Skeleton,
-    section: Section,
-    numbers: &Bound<'_, PyAny>,
-) -> PyResult<Vec<Option<DQuat>>> {
-    let array = array(skeleton, section, numbers)?;
-    let entries = rows::<4>(&array)?.into_iter().enumerate();
-    let rotation = |(place, row)| match tracked(skeleton, section, place, row)? {
-        Some(row) => rotation(skeleton, section, place, row).map(Some),
-        None => Ok(None),
-    };
-    entries.map(rotation).collect()
-}
-
-/// The row of an entry, `None` where it is NaN throughout.
-fn tracked<const N: usize>(
-    skeleton: &Skeleton,
-    section: Section,
-    place: usize,
-    row: [f64; N],
-) -> PyResult<Option<[f64; N]>> {
-    if row.iter().all(|number| number.is_nan()) {
-        return Ok(None);
+/// Whether an entry is tracked: then all its numbers fit the wire, else all are NaN.
+fn is_tracked(skeleton: &Skeleton, section: Section, place: usize, entry: &[f64]) -> PyResult<bool> {
+    if entry.iter().all(|number| number.is_nan()) {
+        return Ok(false);
     }
     // The wires have 32 bits.
     let fits = |number: &f64| number.abs() <= f64::from(f32::MAX);
-    if row.iter().all(fits) {
-        return Ok(Some(row));
+    if entry.iter().all(fits) {
+        return Ok(true);
     }
     let what = of_whom(skeleton, section, place);
-    let found = listed(&row);
-    Err(if row.iter().any(|number| number.is_nan()) {
+    let found = listed(entry);
+    Err(if entry.iter().any(|number| number.is_nan()) {
         usage(
             format!("expected numbers or nothing but NaN as {what}, found {found}"),
             "NaN throughout says that it is not tracked",
@@ -63,22 +43,22 @@ fn tracked<const N: usize>(
     })
 }
 
-fn rotation(skeleton: &Skeleton, section: Section, place: usize, row: [f64; 4]) -> PyResult<DQuat> {
-    let [w, x, y, z] = row;
-    let rotation = DQuat::from_xyzw(x, y, z, w);
-    let length = rotation.length();
+/// Makes a quaternion one of length 1, where it nearly is.
+fn normalize(skeleton: &Skeleton, section: Section, place: usize, quaternion: &mut [f64]) -> PyResult<()> {
+    let length = quaternion.iter().map(|number| number * number).sum::<f64>().sqrt();
     match (length - 1.0).abs() {
         // As exact as 32 bits can have it: what was received goes out unchanged.
-        off if off <= EXACT => Ok(rotation),
-        off if off <= NEARLY => Ok(rotation / length),
+        off if off <= EXACT => {}
+        off if off <= NEARLY => quaternion.iter_mut().for_each(|number| *number /= length),
         _ => {
-            let (what, found) = (of_whom(skeleton, section, place), listed(&row));
-            Err(usage(
+            let (what, found) = (of_whom(skeleton, section, place), listed(quaternion));
+            return Err(usage(
                 format!("expected a quaternion of length 1 as {what}, found {found} of length {length:.4}"),
                 "divide it by its length, w first; what is not tracked is NaN",
-            ))
+            ));
         }
     }
+    Ok(())
 }
 
 /// `the orientation of Head`
@@ -149,12 +129,6 @@ fn no_array(py: Python<'_>, section: Section, error: PyErr) -> PyErr {
         format!("expected an array of numbers as {section}: {}", error.value(py)),
         "numpy.asarray must be able to make one of it",
     )
-}
-
-fn rows<const N: usize>(array: &Bound<'_, PyArrayDyn<f64>>) -> PyResult<Vec<[f64; N]>> {
-    let array = array.try_readonly()?;
-    let numbers: Vec<_> = array.as_array().iter().copied().collect();
-    Ok(numbers.as_chunks().0.to_vec())
 }
 
 /// Quaternions that differ from length 1 by no more are sent as they are.

@@ -1,13 +1,14 @@
 //! Opening a streamer.
 
 use super::carrying::Carrying;
+use super::names;
 use super::numbering::Numbering;
 use super::told::{self, Told};
 use super::{Running, Streamer};
 use crate::error::{raised, usage};
 use crate::process::Opened;
 use crate::skeleton::Skeleton;
-use posewire::endpoint::Endpoint;
+use posewire::endpoint::{Endpoint, NatNetAddress};
 use posewire::sink::{MxtpSink, MxtpSinkOptions, NatNetSink, NatNetSinkOptions};
 use posewire::stop::Stop;
 use posewire::{Error, Item, Session, Sink};
@@ -22,8 +23,8 @@ use std::time::Duration;
 /// Opens targets that samples of the program's own are sent to: "mxtp://HOST:PORT", "mxtp+tcp://HOST:PORT", and
 /// "natnet://0.0.0.0", which is a server.
 ///
-/// `names` are the subjects, each once and all of one `skeleton`; MVN's own if it is left out. `rate` is in samples a second and makes the
-/// clock of samples that come without a time. `types` are the MXTP datagram types, as "02,12,13,20" or "all".
+/// `names` are the subjects, each once and all of one `skeleton`; MVN's own if it is left out. `rate` is in samples a second and
+/// makes the clock of samples that come without a time. `types` are the MXTP datagram types, as "02,12,13,20" or "all".
 ///
 /// Raises NetworkError and UsageError as the command line does.
 #[pyfunction]
@@ -37,38 +38,18 @@ pub(crate) fn streamer(
     types: Option<&str>,
 ) -> PyResult<Streamer> {
     check_rate(rate)?;
-    let urls = urls.extract::<Vec<String>>()?;
-    let targets = urls.iter().map(|url| target(url)).collect::<PyResult<Vec<_>>>()?;
-    if targets.is_empty() {
-        return Err(usage(
-            "expected where to send to, found nothing",
-            "as in posewire.streamer(\"mxtp://127.0.0.1:9763\")",
-        ));
-    }
-    let is_natnet = |target: &Endpoint| matches!(target, Endpoint::NatNet(_));
-    let natnet = targets.iter().any(is_natnet);
-    let mxtp = !targets.iter().all(is_natnet);
-    let mut options = MxtpSinkOptions::default();
-    if let Some(types) = types {
-        options.types = message_types(types, mxtp)?;
-    }
-    let names = match names {
-        Some(names) => checked_names(names, mxtp, natnet)?,
-        None => vec!["posewire".to_owned()],
-    };
+    let targets = targets_of(urls)?;
+    let carrying = carrying(&targets, types)?;
+    let names = names.map_or_else(
+        || Ok(vec!["posewire".to_owned()]),
+        |given| names::checked(given, carrying),
+    )?;
     let skeleton = skeleton.map_or_else(
         || posewire_motion::Skeleton::standard(0, false),
         |skeleton| skeleton.subject.skeleton.clone(),
     );
-    let subjects: Vec<_> = (0..)
-        .zip(&names)
-        .map(|(id, name)| subject(id, name, &skeleton, rate))
-        .collect();
-    let carrying = Carrying {
-        mxtp: mxtp.then_some(options.types),
-        natnet,
-    };
-    let opened = py.detach(|| open(targets, &subjects, options, rate));
+    let subjects = subjects(&names, &skeleton, rate);
+    let opened = py.detach(|| open(targets, &subjects, carrying, rate));
     let (sinks, told) = opened.map_err(|error| raised(&error))?;
     let (session, mut feed) = Session::fed(sinks, Stop::new());
     feed.push(subjects.iter().cloned().map(Item::Subject));
@@ -95,6 +76,18 @@ fn check_rate(rate: f64) -> PyResult<()> {
     ))
 }
 
+/// Where to send to: at least one place.
+fn targets_of(urls: &Bound<'_, PyTuple>) -> PyResult<Vec<Endpoint>> {
+    let urls = urls.extract::<Vec<String>>()?;
+    if urls.is_empty() {
+        return Err(usage(
+            "expected where to send to, found nothing",
+            "as in posewire.streamer(\"mxtp://127.0.0.1:9763\")",
+        ));
+    }
+    urls.iter().map(|url| target(url)).collect()
+}
+
 /// Where motion can be sent. What is no url at all can be no file here either.
 fn target(url: &str) -> PyResult<Endpoint> {
     let endpoint = match url.parse() {
@@ -106,13 +99,24 @@ fn target(url: &str) -> PyResult<Endpoint> {
     Err(raised(&Error::NotATarget { endpoint }))
 }
 
-fn message_types(text: &str, mxtp: bool) -> PyResult<MessageTypes> {
-    if !mxtp {
+/// What the targets carry together, with the datagram types that were asked for.
+fn carrying(targets: &[Endpoint], types: Option<&str>) -> PyResult<Carrying> {
+    let is_natnet = |target: &Endpoint| matches!(target, Endpoint::NatNet(_));
+    let has_mxtp = !targets.iter().all(is_natnet);
+    if let Some(found) = types.filter(|_| !has_mxtp) {
         return Err(usage(
-            format!("expected no types= without an MXTP url, found {text:?}"),
+            format!("expected no types= without an MXTP url, found {found:?}"),
             "NatNet has no datagram types: leave it out",
         ));
     }
+    let types = types.map_or_else(|| Ok(MxtpSinkOptions::default().types), message_types)?;
+    Ok(Carrying {
+        mxtp: has_mxtp.then_some(types),
+        natnet: targets.iter().any(is_natnet),
+    })
+}
+
+fn message_types(text: &str) -> PyResult<MessageTypes> {
     let types = text.parse().unwrap_or(MessageTypes::NONE);
     if types.is_empty() || types.iter().any(|one| !MessageTypes::ALL.contains(one)) {
         let message = format!("expected datagram types with two digits and commas, found {text:?}");
@@ -121,92 +125,58 @@ fn message_types(text: &str, mxtp: bool) -> PyResult<MessageTypes> {
     Ok(types)
 }
 
-/// Names that the protocols can tell, each once.
-fn checked_names(names: &Bound<'_, PyAny>, mxtp: bool, natnet: bool) -> PyResult<Vec<String>> {
-    let wrong = |expected: &str, found: String, help: &str| usage(format!("expected {expected}, found {found}"), help);
-    let found = names.repr()?.to_string();
-    let listed = "as in names=[\"Ada\", \"Bob\"]";
-    let names = names
-        .extract::<Vec<String>>()
-        .map_err(|_| wrong("a list of names", found, listed))?;
-    let longest = if natnet { LONGEST_OF_NATNET } else { LONGEST_OF_MXTP };
-    if names.is_empty() {
-        return Err(wrong("a name for each subject", "none".to_owned(), listed));
-    }
-    if mxtp && names.len() > MOST_OF_MXTP {
-        let expected = format!("at most {MOST_OF_MXTP} subjects, which MXTP can number");
-        return Err(wrong(
-            &expected,
-            names.len().to_string(),
-            "use several streamers, each to a port of its own",
-        ));
-    }
-    for (place, name) in names.iter().enumerate() {
-        let length = name.len();
-        if name.trim().is_empty() || name.chars().any(char::is_control) {
-            return Err(wrong("names of one line", format!("{name:?}"), "receivers show them"));
-        }
-        if length > longest {
-            let expected = format!("names of at most {longest} bytes in UTF-8");
-            return Err(wrong(
-                &expected,
-                format!("one of {length}"),
-                "that is what the protocol carries",
-            ));
-        }
-        if names[..place].contains(name) {
-            return Err(wrong(
-                "each name once",
-                format!("{name:?} twice"),
-                "send(subject=) tells subjects apart by it",
-            ));
-        }
-    }
-    Ok(names)
-}
-
-fn subject(id: u32, name: &str, skeleton: &posewire_motion::Skeleton, rate: f64) -> Arc<Subject> {
-    Arc::new(Subject {
+fn subjects(names: &[String], skeleton: &posewire_motion::Skeleton, rate: f64) -> Vec<Arc<Subject>> {
+    let subject = |(id, name): (u32, &String)| Subject {
         id,
         rate: Some(rate),
-        ..Subject::new(name, skeleton.clone())
-    })
+        ..Subject::new(name.as_str(), skeleton.clone())
+    };
+    (0..).zip(names).map(subject).map(Arc::new).collect()
 }
 
 type Sinks = Vec<Box<dyn Sink>>;
 
-/// Opens the sinks, and tells how they are doing.
+/// Opens the sinks, one for all targets of MXTP and one for each of NatNet, and tells how they are doing.
 fn open(
     targets: Vec<Endpoint>,
     subjects: &[Arc<Subject>],
-    options: MxtpSinkOptions,
+    carrying: Carrying,
     rate: f64,
 ) -> posewire::Result<(Sinks, Vec<Told>)> {
-    let mut mxtp = Vec::new();
-    let mut sinks = Sinks::new();
-    let mut told = Vec::new();
-    for target in targets {
+    let (mut sinks, mut told) = (Sinks::new(), Vec::new());
+    let (mut mxtp, mut mxtp_places) = (Vec::new(), Vec::new());
+    for (place, target) in targets.into_iter().enumerate() {
         let Endpoint::NatNet(address) = target else {
             mxtp.push(target);
+            mxtp_places.push(place);
             continue;
         };
-        let options = NatNetSinkOptions {
-            rate: Some(rate),
-            // The program's calls make a moment, however long it takes for them.
-            gather: Duration::from_secs(1),
-            ..NatNetSinkOptions::default()
-        };
-        let mut sink = NatNetSink::open(&address, options)?;
-        subjects.iter().try_for_each(|subject| sink.describe(subject))?;
-        told.push(Told::of_natnet(&sink));
+        let sink = open_natnet(&address, subjects, rate)?;
+        told.push(Told::of_natnet(&sink, place));
         sinks.push(Box::new(sink));
     }
-    if !mxtp.is_empty() {
+    if let Some(types) = carrying.mxtp {
+        let options = MxtpSinkOptions {
+            types,
+            ..MxtpSinkOptions::default()
+        };
         let sink = MxtpSink::open(&mxtp, options)?;
-        told.push(Told::of_mxtp(&sink));
+        told.push(Told::of_mxtp(&sink, mxtp_places));
         sinks.push(Box::new(sink));
     }
     Ok((sinks, told))
+}
+
+fn open_natnet(address: &NatNetAddress, subjects: &[Arc<Subject>], rate: f64) -> posewire::Result<NatNetSink> {
+    let options = NatNetSinkOptions {
+        rate: Some(rate),
+        // The program's calls make a moment, however long it takes for them.
+        gather: Duration::from_secs(1),
+        ..NatNetSinkOptions::default()
+    };
+    let mut sink = NatNetSink::open(address, options)?;
+    subjects.iter().try_for_each(|subject| sink.describe(subject))?;
+    Ok(sink)
 }
 
 fn urls_of(told: &[Told]) -> Vec<String> {
@@ -215,7 +185,3 @@ fn urls_of(told: &[Told]) -> Vec<String> {
 }
 
 const RATES: RangeInclusive<f64> = 0.001..=100_000.0;
-/// In bytes; NatNet's clients have 256 with a zero at the end.
-const LONGEST_OF_NATNET: usize = 255;
-const LONGEST_OF_MXTP: usize = 1024;
-const MOST_OF_MXTP: usize = 256;

@@ -3,26 +3,31 @@
 use posewire::json::StreamRecord;
 use posewire::sink::{MxtpSink, MxtpTargets, NatNetSink, Progress};
 use pyo3::prelude::*;
+use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Where one sink tells how far it has come.
 pub(super) struct Told {
     progress: Arc<Mutex<Progress>>,
+    /// The places of its targets among those of the streamer.
+    places: Vec<usize>,
     /// Of MXTP until the end, whose numbers go on while nothing is sent.
     targets: Mutex<Option<MxtpTargets>>,
 }
 
 impl Told {
-    pub(super) fn of_mxtp(sink: &MxtpSink) -> Self {
+    pub(super) fn of_mxtp(sink: &MxtpSink, places: Vec<usize>) -> Self {
         Self {
             progress: sink.progress(),
+            places,
             targets: Mutex::new(Some(sink.targets())),
         }
     }
 
-    pub(super) fn of_natnet(sink: &NatNetSink) -> Self {
+    pub(super) fn of_natnet(sink: &NatNetSink, place: usize) -> Self {
         Self {
             progress: sink.progress(),
+            places: vec![place],
             targets: Mutex::new(None),
         }
     }
@@ -44,9 +49,13 @@ impl Told {
     }
 }
 
-/// How far all sinks have come together.
+/// How far all sinks have come together, with the targets in the order in which they were given.
 pub(super) fn progress(told: &[Told]) -> Progress {
-    Progress::of_all(told.iter().map(Told::read))
+    let mut progress = Progress::of_all(told.iter().map(Told::read));
+    let places = told.iter().flat_map(|told| &told.places);
+    let targets: BTreeMap<_, _> = places.zip(progress.targets).collect();
+    progress.targets = targets.into_values().collect();
+    progress
 }
 
 fn lock<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {

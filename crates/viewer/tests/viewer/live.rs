@@ -143,6 +143,20 @@ fn a_sample_that_lost_its_pose_shows_the_one_before() {
 }
 
 #[test]
+fn a_sample_that_newer_ones_have_overtaken_is_not_shown() {
+    let mut stage = Stage::new();
+    let subject = ada();
+    stage.walk(&subject, 2, 0.5);
+    let mut late = Frame::new(Arc::clone(&subject));
+    (late.sample, late.late) = (1, true);
+    late.position = vec![Some(DVec3::X); 23];
+    stage.show(late);
+    let record = &stage.page().moved().records[0];
+    assert_eq!((record.sample, record.position[0]), (2, [0.5, 0.0, 1.0]));
+    assert_eq!(stage.metric("posewire_viewer_frames_total"), 2);
+}
+
+#[test]
 fn states_follow_the_stream_and_come_back() {
     let mut stage = Stage::new();
     stage.walk(&ada(), 1, 0.0);

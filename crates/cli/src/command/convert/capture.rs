@@ -9,27 +9,13 @@ use posewire::sink::TakeSink;
 use posewire::source::PlaybackOptions;
 use posewire::source::synthetic;
 use posewire::{Session, Sink, Source};
-use posewire_motion::Take;
-use std::sync::Arc;
 use std::time::Duration;
 
 /// The walker's people, for so long by their own clock.
 pub(super) fn walk(walk: &Walk, duration: Option<Duration>, stops: &Stops) -> anyhow::Result<Vec<Recording>> {
     let walk = synthetic::Walk::new(&walk.into());
-    let seconds = duration.unwrap_or_default().as_secs_f64();
-    let frames = (seconds * walk.rate()).ceil().max(1.0) as u32;
-    let person = |(person, subject)| {
-        let mut take = Take::new(Arc::clone(subject), walk.rate());
-        for sample in 0..frames {
-            if sample % 1024 == 0 && stops.work.is_stopped() {
-                let what = "the walker walked".to_owned();
-                return Err(posewire::Error::Stopped { what }.into());
-            }
-            take.push(&walk.frame(person, sample))?;
-        }
-        Ok(Recording::from(take))
-    };
-    walk.subjects().iter().enumerate().map(person).collect()
+    let takes = walk.takes(duration.unwrap_or_default(), &stops.work)?;
+    Ok(takes.into_iter().map(Recording::from).collect())
 }
 
 /// A live stream until it is stopped or the time is over, or a whole capture: a take for each subject; and how much of it was
@@ -41,7 +27,7 @@ pub(super) fn live(
     stops: &Stops,
 ) -> anyhow::Result<(Vec<Recording>, u64)> {
     let options = PlaybackOptions {
-        speed: AT_ONCE,
+        speed: PlaybackOptions::AT_ONCE,
         only: only.map(str::to_owned),
         computes: false,
         ..PlaybackOptions::default()
@@ -83,6 +69,3 @@ fn announce(source: &Source) {
         None => say(format_args!("playing the poses of {}", source.endpoint())),
     }
 }
-
-/// A capture is played as fast as it can be read.
-const AT_ONCE: f64 = 1e6;

@@ -68,7 +68,7 @@ fn read_take(path: &Path) -> anyhow::Result<Take> {
 /// The takes of every source of a capture, which is read as fast as it can be.
 fn play(path: &Path, endpoint: &Endpoint, stop: &Stop) -> anyhow::Result<Vec<Take>> {
     let options = PlaybackOptions {
-        speed: AT_ONCE,
+        speed: PlaybackOptions::AT_ONCE,
         ..PlaybackOptions::default()
     };
     let takes = play_sources(Source::open_all(endpoint, &options)?, path, stop)?;
@@ -102,6 +102,4 @@ fn play_sources(sources: Vec<Source>, path: &Path, stop: &Stop) -> anyhow::Resul
     Ok(takes.map(|take| Recording::from(take).take).collect())
 }
 
-/// As fast as it can be read.
-const AT_ONCE: f64 = 1e6;
 const LOOK_EVERY: Duration = Duration::from_millis(50);

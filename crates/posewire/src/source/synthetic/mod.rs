@@ -25,10 +25,12 @@ mod path;
 mod person;
 mod style;
 
-use crate::endpoint;
+use crate::stop::Stop;
+use crate::{Error, Result, endpoint};
 use person::Person;
-use posewire_motion::{Frame, Subject};
+use posewire_motion::{Frame, Subject, Take};
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Who walks, and how often they are sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -126,7 +128,31 @@ impl Walk {
     pub fn frame(&self, person: usize, sample: u32) -> Frame {
         self.people[person].frame(sample, self.rate)
     }
+
+    /// A take of each person, for so long by their own clock: at least one sample.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] when it was stopped meanwhile.
+    pub fn takes(&self, duration: Duration, stop: &Stop) -> Result<Vec<Take>> {
+        let samples = (duration.as_secs_f64() * self.rate).ceil().max(1.0) as u32;
+        let take = |(person, subject)| {
+            let mut take = Take::new(Arc::clone(subject), self.rate);
+            for sample in 0..samples {
+                if sample % LOOK_EVERY == 0 && stop.is_stopped() {
+                    let what = "the walker walked".to_owned();
+                    return Err(Error::Stopped { what });
+                }
+                // The walker's frames fit the walker.
+                let _ = take.push(&self.frame(person, sample));
+            }
+            Ok(take)
+        };
+        self.subjects.iter().enumerate().map(take).collect()
+    }
 }
+
+/// After how many samples it is looked whether to go on.
+const LOOK_EVERY: u32 = 1024;
 
 #[cfg(test)]
 mod tests;

@@ -4,7 +4,6 @@ use super::*;
 use posewire_motion::kinematics::LargestGaps;
 use posewire_motion::rotation::angular_velocity;
 use posewire_motion::{DQuat, DVec3};
-use std::time::Duration;
 
 const RATE: f64 = 100.0;
 /// Two strides and more.
@@ -295,4 +294,21 @@ fn options_out_of_range_are_brought_into_it() {
         ..wild
     });
     assert_eq!((none.subjects().len(), none.rate().to_bits()), (1, MAX_RATE.to_bits()));
+}
+
+#[test]
+fn takes_have_the_samples_of_their_time_and_can_be_stopped() {
+    let walk = Walk::new(&WalkOptions {
+        people: 2,
+        rate: RATE,
+        ..WalkOptions::default()
+    });
+    let takes = walk.takes(Duration::from_millis(255), &Stop::new()).unwrap();
+    assert_eq!(takes.iter().map(Take::len).collect::<Vec<_>>(), [26, 26]);
+    assert_eq!(takes[1].frame(25), walk.frame(1, 25));
+    assert_eq!(walk.takes(Duration::ZERO, &Stop::new()).unwrap()[0].len(), 1);
+    let stopped = Stop::new();
+    stopped.stop();
+    let refused = walk.takes(Duration::from_hours(1), &stopped);
+    assert!(matches!(refused, Err(Error::Stopped { .. })));
 }
