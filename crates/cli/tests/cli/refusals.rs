@@ -107,7 +107,7 @@ fn wrong_arguments_end_with_2() {
         (
             &["stream", walk, "--to", "other.mvnx"],
             "motion cannot be sent there",
-            "as in mxtp://",
+            "--to mxtp://",
         ),
     ] {
         assert_refused(folder.path(), arguments, 2, error, help);
