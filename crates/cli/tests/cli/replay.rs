@@ -1,7 +1,7 @@
 //! `posewire replay`, and captures as sources of the other verbs.
 
 use crate::program::{assert_documented, objects, posewire};
-use posewire::capture::{Capture, CaptureOptions, PcapWriter};
+use posewire::capture::{Capture, CaptureOptions, Captured, PcapWriter};
 use posewire::recording::{Writer, WriterOptions};
 use posewire::{Datagram, SourceId, Wire};
 use posewire_motion::Stamp;
@@ -488,9 +488,15 @@ fn all_sources_of_a_capture_are_recorded() {
     write_capture(&folder.path().join("take.pcapng"), 10, 2);
     let ended = posewire(folder.path(), &["record", "take.pcapng", "-o", "take.mcap"], b"");
     assert_eq!(ended.code, Some(0), "{}", ended.err);
-    let recorded = Capture::open(&folder.path().join("take.mcap"), &CaptureOptions::default()).unwrap();
-    let mut sources: Vec<_> = recorded.map(|captured| captured.unwrap().source).collect();
-    // Each has a thread of its own, and which of two in the same moment comes first is the system's choice.
-    sources.sort_unstable();
-    assert_eq!(sources, [0, 0, 0, 0, 0, 1, 1, 1, 1, 1]);
+    let [written, recorded] = ["take.pcapng", "take.mcap"].map(|name| {
+        let captured = Capture::open(&folder.path().join(name), &CaptureOptions::default()).unwrap();
+        let mut captured: Vec<_> = captured.map(Result::unwrap).collect();
+        // Each source has a thread of its own, and which of two in the same moment comes first is the system's choice.
+        captured.sort_by_key(|captured| captured.datagram.received);
+        let datagram = |Captured { source, datagram, .. }| (source, datagram.received, datagram.bytes);
+        captured.into_iter().map(datagram).collect::<Vec<_>>()
+    });
+    assert_eq!(recorded, written);
+    let sources = recorded.iter().map(|(source, ..)| *source);
+    assert_eq!(sources.collect::<Vec<_>>(), [0, 1].repeat(5));
 }
