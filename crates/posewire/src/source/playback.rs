@@ -62,8 +62,8 @@ impl Default for PlaybackOptions {
 }
 
 impl PlaybackOptions {
-    /// A [`speed`](Self::speed) at which only reading takes time.
-    pub const AT_ONCE: f64 = 1e6;
+    /// A [`speed`](Self::speed) at which only reading takes time: all that stamps can tell passes in a nanosecond.
+    pub const AT_ONCE: f64 = 1e19;
 
     /// What of a capture is played, of all its sources.
     pub(crate) fn selection(&self) -> Selection {

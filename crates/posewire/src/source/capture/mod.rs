@@ -190,24 +190,35 @@ fn reading(options: &PlaybackOptions) -> CaptureOptions {
     }
 }
 
-/// Lets the time between two datagrams pass, and what is due in it happen; `false` when asked to stop.
+/// Lets the time between two datagrams pass, and what is due in it happen; `false` when asked to stop. However long it is by
+/// the clock of the capture, the reader is looked after when it has something to do and, as time passes here, each [`TICK`].
 fn pass(
     pacer: &mut Pacer,
     time: std::ops::Range<Duration>,
     decoder: &mut Decoder<'_>,
     options: &PlaybackOptions,
 ) -> bool {
-    let step = TICK.mul_f64(options.speed.clamp(1e-3, 1e3));
+    let tick = tick_at(options.speed);
     let mut at = time.start;
-    while time.end.saturating_sub(at) > step {
+    loop {
+        let step = decoder.next_due().map_or(tick, |due| due.min(tick));
+        if time.end.saturating_sub(at) <= step {
+            return pacer.wait(time.end);
+        }
         at += step;
         if !pacer.wait(at) || !decoder.tick(step) {
             return false;
         }
     }
-    pacer.wait(time.end)
 }
 
+/// How much time of a capture passes in a [`TICK`] of the day.
+fn tick_at(speed: f64) -> Duration {
+    Duration::try_from_secs_f64(TICK.as_secs_f64() * speed.max(SLOWEST)).unwrap_or(Duration::MAX)
+}
+
+/// So that a tick is some time even where next to none passes.
+const SLOWEST: f64 = 1e-3;
 /// Each has a thread that reads the capture. So many sources are several systems; more of them are a network.
 const MOST_TOGETHER: usize = 64;
 
