@@ -76,6 +76,8 @@ pub enum Notice {
     },
     /// A file ended before its end, and the frames up to there were used.
     Damaged {
+        /// The file, as it was named.
+        file: String,
         /// What is wrong and where.
         problem: String,
     },
@@ -90,7 +92,7 @@ impl fmt::Display for Notice {
             Self::Joined { group, interface } => write!(f, "joined {group} on {interface}"),
             Self::Failed { error } => write!(f, "{error}; nothing more comes from there"),
             Self::Remark { text } => f.write_str(text),
-            Self::Damaged { problem } => write!(f, "the file is damaged: {problem}"),
+            Self::Damaged { file, problem } => write!(f, "{file}: the file is damaged: {problem}"),
         }
     }
 }

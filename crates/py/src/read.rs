@@ -95,7 +95,8 @@ fn takes(py: Python<'_>, path: &Path, progress: Option<&Py<PyAny>>, options: &Op
 
 /// A recording or capture that ends before its end, as the command line says it of one that it uses up to there.
 fn damaged(path: &Path, problem: String, lacks_all: bool) -> PyErr {
-    let message = format!("{}: {}", path.display(), Notice::Damaged { problem });
+    let file = path.display().to_string();
+    let message = Notice::Damaged { file, problem }.to_string();
     let help = if lacks_all {
         "there is no whole sample before the damage"
     } else {
@@ -140,7 +141,7 @@ impl Heard {
     /// What ended the file before its end.
     fn damage(&self) -> Option<String> {
         self.find(|notice| match notice {
-            Notice::Damaged { problem } => Some(problem.clone()),
+            Notice::Damaged { problem, .. } => Some(problem.clone()),
             _ => None,
         })
     }

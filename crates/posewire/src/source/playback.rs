@@ -270,7 +270,8 @@ impl Playback {
     /// Goes back to the start if it is to be looped; `false` when the playback is over.
     fn begin_again(&mut self, schedule: &mut Schedule, outlet: &mut Outlet) -> Result<bool> {
         if let Some(problem) = self.frames.damage() {
-            outlet.push(Item::Notice(Notice::Damaged { problem }));
+            let file = self.frames.name();
+            outlet.push(Item::Notice(Notice::Damaged { file, problem }));
         }
         if !self.options.looped {
             return Ok(self.control.end());

@@ -108,8 +108,10 @@ impl CapturePlayback {
         if let Some(problem) = self.playlist.damage()
             && self.together.damage_told.set(()).is_ok()
         {
-            let problem = problem.to_owned();
-            decoder.notice(Notice::Damaged { problem });
+            decoder.notice(Notice::Damaged {
+                file: self.path.display().to_string(),
+                problem: problem.to_owned(),
+            });
         }
         decoder.finish();
         played
