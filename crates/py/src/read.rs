@@ -15,7 +15,9 @@ use posewire::sink::TakeSink;
 use posewire::source::{PlaybackOptions, synthetic};
 use posewire::stop::Stop;
 use posewire::{Error, Item, Notice, Session, Sink, Source, SourceId, Wants};
+use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
+use std::ffi::CString;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
@@ -88,6 +90,7 @@ fn takes(py: Python<'_>, path: &Path, progress: Option<&Py<PyAny>>, options: &Op
     {
         return Err(damaged(path, problem, recordings.is_empty()));
     }
+    heard.warn(py)?;
     let received = matches!(input, Input::Capture(_));
     let take = |recording| Take::new(recording, received);
     Ok(recordings.into_iter().map(take).collect())
@@ -154,6 +157,17 @@ impl Heard {
         })
     }
 
+    /// Says in Python what was passed over.
+    fn warn(&self, py: Python<'_>) -> PyResult<()> {
+        let text = self.find(|notice| match notice {
+            Notice::PosesLeftOut { .. } => Some(format!("{notice} with only=")),
+            _ => None,
+        });
+        let Some(text) = text else { return Ok(()) };
+        let text = CString::new(text.replace('\0', ""))?;
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)
+    }
+
     fn find<T>(&self, wanted: impl Fn(&Notice) -> Option<T>) -> Option<T> {
         self.0
             .lock()
@@ -172,7 +186,8 @@ impl Sink for Heard {
     }
 
     fn accept(&mut self, _: SourceId, item: &Item) -> posewire::Result<()> {
-        if let Item::Notice(notice @ (Notice::Damaged { .. } | Notice::Failed { .. })) = item {
+        use Notice::{Damaged, Failed, PosesLeftOut};
+        if let Item::Notice(notice @ (Damaged { .. } | Failed { .. } | PosesLeftOut { .. })) = item {
             let mut notices = self.0.lock().unwrap_or_else(PoisonError::into_inner);
             notices.push(notice.clone());
         }

@@ -4,6 +4,7 @@ mod decoder;
 
 use self::decoder::Decoder;
 use super::playback::PlaybackOptions;
+use super::posed;
 use super::report::TICK;
 use crate::capture::{CaptureOptions, CapturedSource, Due, Opening, Playlist, Protocol, Selection, Survey};
 use crate::pacer::Pacer;
@@ -26,6 +27,8 @@ pub(super) struct CapturePlayback {
     source: CapturedSource,
     opening: Option<Opening>,
     together: Together,
+    /// What is said at the beginning, by one of those that are played together.
+    notice: Option<Notice>,
 }
 
 /// What sources have in common that are played together.
@@ -43,7 +46,9 @@ impl CapturePlayback {
     pub(super) fn open(path: &Path, options: &PlaybackOptions) -> Result<Self> {
         let survey = survey(path, options, &Stop::new())?;
         let source = survey.choose(path, options.only.as_deref())?;
-        Self::of((path, survey.lasts()), options, source, &Together::of(1))
+        let mut capture = Self::of((path, survey.lasts()), options, source, &Together::of(1))?;
+        capture.notice = left_out(path, options, &survey)?;
+        Ok(capture)
     }
 
     /// Opens each source that is meant; all of them if none is named. `stop` ends the reading that this takes.
@@ -56,7 +61,11 @@ impl CapturePlayback {
         }
         let together = Together::of(sources.len());
         let open = |source| Self::of((path, survey.lasts()), options, source, &together);
-        sources.into_iter().map(open).collect()
+        let mut captures = sources.into_iter().map(open).collect::<Result<Vec<_>>>()?;
+        if let Some(first) = captures.first_mut() {
+            first.notice = left_out(path, options, &survey)?;
+        }
+        Ok(captures)
     }
 
     fn of(
@@ -82,6 +91,7 @@ impl CapturePlayback {
             source: source.clone(),
             opening,
             together: together.clone(),
+            notice: None,
         })
     }
 
@@ -91,6 +101,9 @@ impl CapturePlayback {
     }
 
     pub(super) fn run(mut self, outlet: &mut Outlet, stop: &Stop) -> Result<()> {
+        if let Some(notice) = self.notice.take() {
+            outlet.push(Item::Notice(notice));
+        }
         let began = *self.together.began.get_or_init(Instant::now);
         let mut pacer = Pacer::new(began, self.options.speed, stop.clone())?;
         let Some(first) = self.next()? else {
@@ -184,6 +197,16 @@ fn survey(path: &Path, options: &PlaybackOptions, stop: &Stop) -> Result<Survey>
         });
     }
     Survey::of_until(path, &reading(options), stop)
+}
+
+/// The sources that have poses alone, unless one was named.
+fn left_out(path: &Path, options: &PlaybackOptions, survey: &Survey) -> Result<Option<Notice>> {
+    if options.only.is_some() {
+        return Ok(None);
+    }
+    let sources = posed::unheard(path, survey)?;
+    let file = path.display().to_string();
+    Ok((!sources.is_empty()).then_some(Notice::PosesLeftOut { file, sources }))
 }
 
 fn reading(options: &PlaybackOptions) -> CaptureOptions {
