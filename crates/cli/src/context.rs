@@ -111,7 +111,7 @@ pub(crate) struct Teller {
 #[derive(Default)]
 struct Heard {
     lost_here: BTreeMap<SourceId, u64>,
-    is_damaged: bool,
+    damage: Option<String>,
 }
 
 impl Teller {
@@ -122,7 +122,12 @@ impl Teller {
 
     /// Whether a file ended before its end.
     pub(crate) fn is_damaged(&self) -> bool {
-        self.heard().is_damaged
+        self.heard().damage.is_some()
+    }
+
+    /// What ended a file before its end.
+    pub(crate) fn damage(&self) -> Option<String> {
+        self.heard().damage.clone()
     }
 
     fn heard(&self) -> MutexGuard<'_, Heard> {
@@ -141,7 +146,9 @@ impl Sink for Teller {
     fn accept(&mut self, source: SourceId, item: &Item) -> Result<()> {
         match item {
             Item::Notice(notice) => {
-                self.heard().is_damaged |= matches!(notice, Notice::Damaged { .. });
+                if let Notice::Damaged { problem, .. } = notice {
+                    self.heard().damage.get_or_insert_with(|| problem.clone());
+                }
                 end_progress();
                 say(notice);
             }

@@ -295,6 +295,14 @@ pub enum Error {
         /// What it holds.
         what: &'static str,
     },
+    /// A section that was asked for, a take lacks, and its poses do not tell.
+    #[error("the take has no {wanted}: it has {}", if found.is_empty() { "nothing".to_owned() } else { found.join(", ") })]
+    NoSection {
+        /// The section's name.
+        wanted: &'static str,
+        /// Those that it has.
+        found: Vec<&'static str>,
+    },
     /// Sample numbers of which a take has none.
     #[error("expected samples {}, found those from {first} to {last}", numbers(*from, *to))]
     NoSamples {
@@ -467,6 +475,7 @@ impl Error {
                 | Self::OntoItself { .. }
                 | Self::NotAsRecorded { .. }
                 | Self::NoSamples { .. }
+                | Self::NoSection { .. }
                 | Self::NewRate { .. }
                 | Self::Feature { .. }
         )

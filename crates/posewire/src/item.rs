@@ -74,8 +74,17 @@ pub enum Notice {
         /// The sentence.
         text: String,
     },
+    /// Sources of a recording are passed over that have poses and no datagrams, as others of it have datagrams.
+    PosesLeftOut {
+        /// The file, as it was named.
+        file: String,
+        /// The sources, each with its number.
+        sources: Vec<String>,
+    },
     /// A file ended before its end, and the frames up to there were used.
     Damaged {
+        /// The file, as it was named.
+        file: String,
         /// What is wrong and where.
         problem: String,
     },
@@ -90,7 +99,14 @@ impl fmt::Display for Notice {
             Self::Joined { group, interface } => write!(f, "joined {group} on {interface}"),
             Self::Failed { error } => write!(f, "{error}; nothing more comes from there"),
             Self::Remark { text } => f.write_str(text),
-            Self::Damaged { problem } => write!(f, "the file is damaged: {problem}"),
+            Self::PosesLeftOut { file, sources } => {
+                let sources = sources.join(", ");
+                write!(
+                    f,
+                    "{file}: left out: the poses of {sources}, without datagrams; choose a source to play them"
+                )
+            }
+            Self::Damaged { file, problem } => write!(f, "{file}: the file is damaged: {problem}"),
         }
     }
 }

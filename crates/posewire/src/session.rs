@@ -297,8 +297,8 @@ mod tests {
     use posewire_motion::Stamp;
 
     fn notice(number: u32) -> Item {
-        let problem = number.to_string();
-        Item::Notice(Notice::Damaged { problem })
+        let text = number.to_string();
+        Item::Notice(Notice::Remark { text })
     }
 
     fn feeder(capacity: usize, wants: Wants) -> (Feeder, Consumer<(SourceId, Item)>) {

@@ -1,7 +1,7 @@
 //! Datagrams as dicts.
 
 use crate::error::{exception, usage};
-use posewire_natnet::{Packet, Quirk, Version};
+use posewire_natnet::{MessageId, Packet, Quirk, Version};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyList, PyMemoryView};
@@ -20,20 +20,21 @@ use std::collections::HashSet;
 ///      "rigid_bodies_count": 1, "rigid_bodies": [{"id": 1, "position": {...}, "params": 1}], ..., "quirks": []}
 ///
 /// Which other fields there are depends on the type of the datagram. A list is there even where it is empty, and NatNet's
-/// count and size of it stand beside it. What nothing says the meaning of is bytes: "payload", "leftover", and "trailing" after
-/// the end. "quirks" names how the datagram deviates from the specification.
+/// count and size of it stand beside it. Bytes without a meaning are hexadecimal digits, which
+/// `bytes.fromhex` takes: "reserved", "payload", "leftover", and "trailing" after the end. "quirks" names how the datagram deviates from the specification.
 ///
 /// `data` is bytes or anything whose buffer has items of one byte: bytearray, memoryview, an array of numpy.uint8. `protocol`,
-/// "mxtp" or "natnet", is told by the bytes if left out; a NatNet frame does not say its `version`.
+/// "mxtp" or "natnet", is told by the bytes if left out. NatNet's frames and descriptions do not say their `version`, from "1.4" to
+/// "4.5", which is "4.1" if left out.
 ///
-/// Raises DecodeError for what is no datagram.
+/// Raises DecodeError for what is no datagram, and UsageError for a version that there is not, or of MXTP, which says its own.
 #[pyfunction]
-#[pyo3(signature = (data, protocol = None, version = "4.1"))]
+#[pyo3(signature = (data, protocol = None, version = None))]
 pub(crate) fn decode<'py>(
     py: Python<'py>,
     data: &Bound<'py, PyAny>,
     protocol: Option<&str>,
-    version: &str,
+    version: Option<&str>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let bytes = bytes_of(data)?;
     let data = bytes.as_bytes();
@@ -41,8 +42,14 @@ pub(crate) fn decode<'py>(
     let decoded = PyDict::new(py);
     decoded.set_item("protocol", protocol)?;
     match protocol {
+        "mxtp" if version.is_some() => {
+            return Err(usage(
+                "version= is of NatNet, and these bytes are read as MXTP",
+                "leave it out: MXTP says its revision itself",
+            ));
+        }
         "mxtp" => mxtp(&decoded, data)?,
-        "natnet" => natnet(&decoded, data, version)?,
+        "natnet" => natnet(&decoded, data, version.map_or(Ok(USUAL_VERSION), natnet_version)?)?,
         found => {
             return Err(usage(
                 format!("there is no protocol {found:?}"),
@@ -108,7 +115,7 @@ fn mxtp(decoded: &Bound<'_, PyDict>, data: &[u8]) -> PyResult<()> {
                 }
                 None => text.into_pyobject(py)?.into_any(),
             },
-            Value::Bytes(bytes) => PyBytes::new(py, bytes).into_any(),
+            Value::Bytes(bytes) => hexadecimal(bytes).into_pyobject(py)?.into_any(),
         };
         put(decoded, &field.name, value)?;
     }
@@ -126,16 +133,14 @@ fn put_line(decoded: &Bound<'_, PyDict>, name: &str, line: &str) -> PyResult<()>
     meta.set_item(name, value.trim_end_matches('\n'))
 }
 
-fn natnet(decoded: &Bound<'_, PyDict>, data: &[u8], version: &str) -> PyResult<()> {
+fn natnet(decoded: &Bound<'_, PyDict>, data: &[u8], version: Version) -> PyResult<()> {
     use posewire_natnet::Value;
-    let version = natnet_version(version)?;
     let explanation = posewire_natnet::explain(version, data);
     if data.starts_with(MXTP) {
         return Err(refused("NatNet", &"it begins with \"MXTP\"", "leave protocol= out"));
     }
     if let Some(error) = explanation.error {
-        let help = format!("a frame does not say its version: this is not one of {version}, or cut off");
-        return Err(refused("NatNet", &error, &help));
+        return Err(refused("NatNet", &error, &help_with(data, version)));
     }
     let py = decoded.py();
     let counts = explanation
@@ -150,7 +155,7 @@ fn natnet(decoded: &Bound<'_, PyDict>, data: &[u8], version: &str) -> PyResult<(
             Value::Float(number) => number.into_pyobject(py)?.into_any(),
             Value::Double(number) => number.into_pyobject(py)?.into_any(),
             Value::Text(text) => text.into_pyobject(py)?.into_any(),
-            Value::Bytes(bytes) => PyBytes::new(py, bytes).into_any(),
+            Value::Bytes(bytes) => hexadecimal(bytes).into_pyobject(py)?.into_any(),
         };
         lists.put(decoded, &field.name, value)?;
         if field.name == "message" {
@@ -168,12 +173,26 @@ fn natnet_version(text: &str) -> PyResult<Version> {
     let parts = text.split_once('.');
     let number = |part: &str| part.parse::<u8>().ok();
     let version = parts.and_then(|(major, minor)| Some(Version::new(number(major)?, number(minor)?)));
-    version.ok_or_else(|| {
+    version.filter(|version| version.is_known()).ok_or_else(|| {
         usage(
-            format!("expected a version of NatNet, found {text:?}"),
+            format!("expected a version of NatNet from 1.4 to 4.5, found {text:?}"),
             "as in version=\"3.1\"",
         )
     })
+}
+
+/// What to do about a packet that was read as one of a version.
+fn help_with(data: &[u8], version: Version) -> String {
+    let whose = match Packet::decode(data).map(|packet| packet.id) {
+        Ok(MessageId::FRAME) => "a frame does not say its version: this is not one",
+        Ok(MessageId::MODEL) => "descriptions do not say their version: these are not",
+        _ => return "posewire explain shows the bytes as far as they make sense".to_owned(),
+    };
+    format!("{whose} of {version}, or cut off")
+}
+
+fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 fn refused(protocol: &str, error: &dyn std::fmt::Display, help: &str) -> PyErr {
@@ -280,5 +299,7 @@ impl Step<'_> {
     }
 }
 
+/// That of frames and descriptions of which no version is said.
+const USUAL_VERSION: Version = Version::new(4, 1);
 /// How MXTP begins.
 const MXTP: &[u8] = b"MXTP";

@@ -49,6 +49,7 @@ fn class_of(error: &Error) -> &'static str {
         | Error::MissingPart { .. }
         | Error::NotMcap { .. }
         | Error::Compressed { .. } => "ReadError",
+        Error::NoSection { .. } => "MissingError",
         Error::Write { .. } | Error::Exists { .. } | Error::Lacks { .. } | Error::Fixed { .. } => "WriteError",
         Error::Resolve { .. }
         | Error::SeveralServers { .. }

@@ -15,7 +15,9 @@ use posewire::sink::TakeSink;
 use posewire::source::{PlaybackOptions, synthetic};
 use posewire::stop::Stop;
 use posewire::{Error, Item, Notice, Session, Sink, Source, SourceId, Wants};
+use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
+use std::ffi::CString;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
@@ -88,6 +90,7 @@ fn takes(py: Python<'_>, path: &Path, progress: Option<&Py<PyAny>>, options: &Op
     {
         return Err(damaged(path, problem, recordings.is_empty()));
     }
+    heard.warn(py)?;
     let received = matches!(input, Input::Capture(_));
     let take = |recording| Take::new(recording, received);
     Ok(recordings.into_iter().map(take).collect())
@@ -95,7 +98,8 @@ fn takes(py: Python<'_>, path: &Path, progress: Option<&Py<PyAny>>, options: &Op
 
 /// A recording or capture that ends before its end, as the command line says it of one that it uses up to there.
 fn damaged(path: &Path, problem: String, lacks_all: bool) -> PyErr {
-    let message = format!("{}: {}", path.display(), Notice::Damaged { problem });
+    let file = path.display().to_string();
+    let message = Notice::Damaged { file, problem }.to_string();
     let help = if lacks_all {
         "there is no whole sample before the damage"
     } else {
@@ -140,7 +144,7 @@ impl Heard {
     /// What ended the file before its end.
     fn damage(&self) -> Option<String> {
         self.find(|notice| match notice {
-            Notice::Damaged { problem } => Some(problem.clone()),
+            Notice::Damaged { problem, .. } => Some(problem.clone()),
             _ => None,
         })
     }
@@ -151,6 +155,17 @@ impl Heard {
             Notice::Failed { error } => Some(error.clone()),
             _ => None,
         })
+    }
+
+    /// Says in Python what was passed over.
+    fn warn(&self, py: Python<'_>) -> PyResult<()> {
+        let text = self.find(|notice| match notice {
+            Notice::PosesLeftOut { .. } => Some(format!("{notice} with only=")),
+            _ => None,
+        });
+        let Some(text) = text else { return Ok(()) };
+        let text = CString::new(text.replace('\0', ""))?;
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)
     }
 
     fn find<T>(&self, wanted: impl Fn(&Notice) -> Option<T>) -> Option<T> {
@@ -171,7 +186,8 @@ impl Sink for Heard {
     }
 
     fn accept(&mut self, _: SourceId, item: &Item) -> posewire::Result<()> {
-        if let Item::Notice(notice @ (Notice::Damaged { .. } | Notice::Failed { .. })) = item {
+        use Notice::{Damaged, Failed, PosesLeftOut};
+        if let Item::Notice(notice @ (Damaged { .. } | Failed { .. } | PosesLeftOut { .. })) = item {
             let mut notices = self.0.lock().unwrap_or_else(PoisonError::into_inner);
             notices.push(notice.clone());
         }

@@ -7,9 +7,9 @@ use crate::take::Take;
 use crate::wait::working;
 use posewire::Error;
 use posewire::endpoint::{Endpoint, FileFormat};
-use posewire::file::{Axes, Progress, Target, WriteOptions, save};
+use posewire::file::{Axes, Edit, Progress, Target, WriteOptions, save};
 use posewire::stop::Stop;
-use posewire_motion::{Section, Unit};
+use posewire_motion::Unit;
 use posewire_mvnx::Version;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -70,23 +70,7 @@ pub(crate) fn write(
             progress.call1(py, (counted.done(), counted.total())).map(drop)
         },
     );
-    saved?.map_err(|failure| match failure {
-        Failure::Lacks(section) => take.lacks(section),
-        Failure::Engine(error) => failed(&error),
-    })
-}
-
-/// What keeps a take from being written.
-enum Failure {
-    Engine(Error),
-    /// It was asked for, the take lacks it, and its poses do not tell it.
-    Lacks(Section),
-}
-
-impl From<Error> for Failure {
-    fn from(error: Error) -> Self {
-        Self::Engine(error)
-    }
+    saved?.map_err(|error| failed(&error))
 }
 
 /// The format that the name ends in or that was asked for. The two do not contradict each other.
@@ -207,28 +191,16 @@ impl Asked {
 }
 
 impl Take {
-    fn save(&self, target: &Target, asked: &Asked, progress: &Progress) -> Result<Saved, Failure> {
+    fn save(&self, target: &Target, asked: &Asked, progress: &Progress) -> posewire::Result<Saved> {
         let options = &asked.options;
         options.check(target.format)?;
         target.check(options)?;
-        let mut recording = Cow::Borrowed(&*self.recording);
-        if asked.first.is_some() || asked.last.is_some() {
-            let samples = asked.first.unwrap_or(0)..=asked.last.unwrap_or(u32::MAX);
-            recording.to_mut().cut(&samples)?;
-        }
-        let wanted = self.wanted(target.format, options);
-        let computed = if wanted.iter().any(|section| recording.take.column(*section).is_none()) {
-            recording.to_mut().complete(wanted)
-        } else {
-            Vec::new()
+        let edit = Edit {
+            samples: asked.first.unwrap_or(0)..=asked.last.unwrap_or(u32::MAX),
+            rate: asked.rate,
+            received: self.received,
         };
-        let lacks = |section: &&Section| recording.take.column(**section).is_none();
-        if let Some(section) = options.sections.iter().flatten().find(lacks) {
-            return Err(Failure::Lacks(*section));
-        }
-        if let Some(rate) = asked.rate {
-            recording.to_mut().resample(rate)?;
-        }
+        let (recording, computed) = edit.of(Cow::Borrowed(&*self.recording), target.format, options)?;
         let saved = save(target, &recording, options, progress)?;
         Ok(Saved {
             bytes: saved.files.iter().map(|(_, bytes)| bytes).sum(),
@@ -236,14 +208,6 @@ impl Take {
             left_out: saved.left_out.iter().map(str::to_owned).collect(),
             computed: computed.into_iter().map(|section| section.to_string()).collect(),
         })
-    }
-
-    /// The sections that are computed where they are lacking, as `posewire convert` does.
-    fn wanted<'a>(&self, format: FileFormat, options: &'a WriteOptions) -> &'a [Section] {
-        match format {
-            FileFormat::Mvnx | FileFormat::MvnxGz if self.received && options.sections.is_none() => Section::ALL,
-            _ => options.needed(format),
-        }
     }
 }
 

@@ -172,6 +172,30 @@ def test_poses_alone_are_takes(walked, tmp_path):
     assert all(take.damage for take in posewire.read_all(short, salvage=True))
 
 
+def test_poses_beside_datagrams_are_told_of_and_read_when_they_are_named(tmp_path):
+    path = tmp_path / "both.mcap"
+    skeleton = posewire.Skeleton.standard()
+    with posewire.Recorder("mxtp://127.0.0.1:0", "synthetic:walk", path=path) as recorder:
+        with posewire.streamer(recorder.urls[0], skeleton=skeleton, names=["Robot"]) as streamer:
+
+            def recorded():
+                streamer.send(skeleton.origins, np.tile([1.0, 0, 0, 0], (len(skeleton), 1)))
+                return recorder.progress()["datagrams"] > 5 and recorder.progress()["frames"] > 40
+
+            until(recorded)
+    words = "both.mcap: left out: the poses of 1 synthetic:walk"
+    with pytest.warns(UserWarning, match=words):
+        assert posewire.read(path).subject == "Robot"
+    walk = posewire.read(path, only=1)
+    assert walk.subject != "Robot" and len(walk) > 5
+    with pytest.raises(posewire.UsageError):
+        posewire.read(path, only=2)
+    ended = run("convert", str(path), str(tmp_path / "robot.csv"))
+    assert ended.returncode == 0 and words in ended.stderr
+    ended = run("convert", str(path), str(tmp_path / "walk.csv"), "--only", "synthetic")
+    assert ended.returncode == 0 and words not in ended.stderr
+
+
 def test_the_command_line_plays_poses_alone(walked, tmp_path):
     ended = run("convert", str(walked), str(tmp_path / "walk.csv"))
     assert ended.returncode == 0, ended.stderr

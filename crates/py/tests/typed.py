@@ -48,6 +48,7 @@ def send(position: npt.NDArray[np.float32]) -> None:
 
 def errors(data: bytearray) -> str | None:
     try:
+        posewire.decode(np.frombuffer(data, np.uint8), protocol="natnet")
         return str(posewire.decode(memoryview(data), version="3.1")["quirks"])
     except (posewire.DecodeError, ValueError) as error:
         return error.help if isinstance(error, posewire.Error) else None

@@ -15,9 +15,9 @@ use crate::json;
 use bar::Bar;
 use plan::{Job, Plan, Source};
 use posewire::endpoint::FileFormat;
-use posewire::file::{ReadOptions, Recording, Saved, read, rewrite, save};
-use posewire_motion::Section;
+use posewire::file::{Edit, ReadOptions, Recording, Saved, WriteOptions, read, rewrite, save};
 use report::Report;
+use std::borrow::Cow;
 use std::path::Path;
 use std::time::Instant;
 
@@ -36,7 +36,7 @@ pub(super) fn run(arguments: &Convert) -> anyhow::Result<End> {
         for take in done.takes {
             match take {
                 Ok(report) => {
-                    lost += u64::from(report.is_damaged());
+                    lost += u64::from(report.is_incomplete());
                     tell(&report, arguments.json)?;
                 }
                 Err(error) if alone || stops.work.is_stopped() => return Err(error),
@@ -130,15 +130,9 @@ fn write_all(
 ) -> Vec<anyhow::Result<Report>> {
     let names = plan::distinct_names(&recordings);
     let several = recordings.len() > 1;
-    let reports = recordings.into_iter().zip(names).map(|(mut recording, name)| {
-        let computed = if job.is_mvnx() {
-            recording.complete(Section::ALL)
-        } else {
-            Vec::new()
-        };
+    let reports = recordings.into_iter().zip(names).map(|(recording, name)| {
         let name = several.then_some(name.as_str());
-        let report = write(plan, job, name, recording, stops, began)?;
-        Ok(report.computed(&computed))
+        write(plan, job, name, recording, stops, began)
     });
     reports.collect()
 }
@@ -148,25 +142,37 @@ fn write(
     plan: &Plan,
     job: &Job,
     name: Option<&str>,
-    mut recording: Recording,
+    recording: Recording,
     stops: &Stops,
     began: Instant,
 ) -> anyhow::Result<Report> {
-    recording.cut(&plan.samples)?;
-    let computed = recording.complete(plan.writing.needed(job.format));
-    if let Some(rate) = plan.rate {
-        recording.resample(rate)?;
-    }
-    let saved = save_take(plan, job, name, &recording, stops)?;
+    let (mut writing, mut lacking) = (plan.writing.clone(), Vec::new());
+    let (recording, computed) = loop {
+        match plan.edit(job).of(Cow::Borrowed(&recording), job.format, &writing) {
+            // It could not be had again.
+            Err(posewire::Error::NoSection { wanted, .. }) if job.is_stream() && leave_out(&mut writing, wanted) => {
+                lacking.push(wanted);
+            }
+            done => break done?,
+        }
+    };
+    let saved = save_take(&writing, job, name, &recording, stops)?;
     let frames = recording.take.len() as u64;
     let report = Report::new(job, frames, saved, began);
-    let report = report.computed(&computed).damaged(recording.damage.take());
-    Ok(report.reordered(recording.reordered))
+    let report = report.computed(&computed).damaged(recording.damage.clone());
+    Ok(report.reordered(recording.reordered).lacking(lacking))
+}
+
+/// Writes a section no more that was asked for, unless it is the last.
+fn leave_out(writing: &mut WriteOptions, section: &str) -> bool {
+    let sections = writing.sections.get_or_insert_default();
+    sections.retain(|wanted| wanted.name() != section);
+    !sections.is_empty()
 }
 
 /// Saves a take. Where a file is there already, one of a stream gets a number into its name: it could not be had again.
 fn save_take(
-    plan: &Plan,
+    writing: &WriteOptions,
     job: &Job,
     name: Option<&str>,
     recording: &Recording,
@@ -175,7 +181,7 @@ fn save_take(
     let (mut target, mut number) = (job.target(name), 1);
     loop {
         let bar = Bar::start("writing", target.path.display(), &stops.work);
-        let saved = save(&target, recording, &plan.writing, bar.progress());
+        let saved = save(&target, recording, writing, bar.progress());
         bar.end();
         if !(job.is_live() && matches!(saved, Err(posewire::Error::Exists { .. }))) {
             return saved;
@@ -200,6 +206,15 @@ impl Plan {
     fn passes_through(&self, job: &Job) -> bool {
         // Sections asked for by name may have to be computed.
         job.is_mvnx() && self.rate.is_none() && self.writing.sections.is_none()
+    }
+
+    /// What is done to a take of this input.
+    fn edit(&self, job: &Job) -> Edit {
+        Edit {
+            samples: self.samples.clone(),
+            rate: self.rate,
+            received: !matches!(job.source, Source::File(_)),
+        }
     }
 }
 

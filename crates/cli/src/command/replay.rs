@@ -42,7 +42,10 @@ pub(super) fn run(arguments: &Replay) -> anyhow::Result<End> {
     end_progress();
     let replayed = replayed?;
     if let Some(damage) = &replayed.damage {
-        say(format_args!("the file is damaged: {damage}"));
+        say(format_args!(
+            "{}: the file is damaged: {damage}",
+            arguments.file.display()
+        ));
     }
     if arguments.json {
         json::print(&json::ReplayRecord::new(&replayed, plan.as_ref()))?;

@@ -456,3 +456,14 @@ fn ctrl_c_leaves_no_half_file() {
     assert_eq!(ended.code, Some(1));
     assert_eq!(names(folder.path()), ["slow.mvnx", "take.mvnx"]);
 }
+
+#[test]
+fn a_section_that_nothing_tells_is_refused_unless_it_is_of_a_stream() {
+    let folder = with_take(4);
+    let asked = ["--only", "position,sensor_magnetic_field"];
+    let words = "the take has no sensor_magnetic_field: it has position";
+    assert_refused(&folder, &[&["take.mvnx", "x.csv"], &asked[..]].concat(), 2, words);
+    let record = ["record", "synthetic:walk", "-o", "walk.mcap", "--duration", "0.2"];
+    assert_eq!(posewire(folder.path(), &record, b"").code, Some(0));
+    assert_refused(&folder, &[&["walk.mcap", "x.csv"], &asked[..]].concat(), 2, words);
+}

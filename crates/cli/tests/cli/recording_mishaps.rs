@@ -3,6 +3,7 @@
 use crate::program::{objects, posewire};
 use crate::record::{Recorder, send_until};
 use crate::refusals::assert_refused;
+use crate::replay::write_capture;
 use posewire::recording::Survey;
 use std::fs;
 use std::net::UdpSocket;
@@ -251,5 +252,36 @@ fn a_recording_of_poses_alone_is_converted_and_streamed() {
         &["convert", "walk.mcap", "other.mcap"],
     ] {
         assert_refused(folder.path(), arguments, 1, error, help);
+    }
+}
+
+#[test]
+fn a_recording_that_was_cut_off_becomes_takes_that_say_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let run = |arguments: &[&str]| posewire(folder.path(), arguments, b"");
+    let record = ["record", "synthetic:walk", "-o", "poses.mcap", "--duration", "0.5"];
+    assert_eq!(run(&record).code, Some(0));
+    write_capture(&at("take.pcapng"), 400, 1);
+    for (whole, cut) in [("poses.mcap", "cut.mcap"), ("take.pcapng", "cut.pcapng")] {
+        let bytes = fs::read(at(whole)).unwrap();
+        fs::write(at(cut), &bytes[..bytes.len() * 3 / 4]).unwrap();
+        let told = run(&["convert", cut, "take.csv"]);
+        assert_eq!(told.code, Some(3), "{}", told.err);
+        assert!(
+            told.err.contains(&format!("{cut}: the file is damaged: ")),
+            "{}",
+            told.err
+        );
+        assert!(told.err.contains("\n  damaged   "), "{}", told.err);
+        let told = run(&["convert", cut, "take.csv", "--overwrite", "--json"]);
+        assert_eq!(told.code, Some(3), "{}", told.err);
+        let damage = &objects(&told.out, "converted")[0]["damage"];
+        assert!(
+            damage.as_str().is_some_and(|damage| told.err.contains(damage)),
+            "{}",
+            told.out
+        );
+        fs::remove_file(at("take.csv")).unwrap();
     }
 }

@@ -60,6 +60,7 @@ impl Error {
                 "leave the {what} out, or choose a format that is free in it, as CSV is"
             )),
             Self::Lacks { .. } => Some("posewire inspect says what the take holds".into()),
+            Self::NoSection { .. } => Some("leave it out: the poses do not tell it".into()),
             Self::NoSamples { .. } => Some("posewire inspect says which samples a take has".into()),
             Self::NewRate { .. } => Some("leave the rate out to keep every sample".into()),
             Self::Exists { .. } => Some("choose another name, or replace it with --overwrite".into()),

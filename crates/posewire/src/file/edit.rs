@@ -1,10 +1,78 @@
 //! What can be done with a take between reading and writing.
 
-use super::Recording;
+use super::{Recording, WriteOptions};
+use crate::endpoint::FileFormat;
 use crate::{Error, Result};
 use posewire_motion::Section;
 use posewire_motion::kinematics::{completed, resampled};
+use std::borrow::Cow;
 use std::ops::{Range, RangeInclusive};
+
+/// What is done to a take before it is saved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Edit {
+    /// The sample numbers that are kept, both ends included.
+    pub samples: RangeInclusive<u32>,
+    /// How many samples a second it is given; as many as it has if absent.
+    pub rate: Option<f64>,
+    /// Whether it was received, with what the sender chose to send: MVNX then gets all that the poses tell.
+    pub received: bool,
+}
+
+impl Default for Edit {
+    /// All samples as they are, of a file.
+    fn default() -> Self {
+        Self {
+            samples: 0..=u32::MAX,
+            rate: None,
+            received: false,
+        }
+    }
+}
+
+impl Edit {
+    /// A take as it is to be saved in a format: what is to be written and is lacking is computed, then it is cut and resampled.
+    /// With the sections that were computed.
+    ///
+    /// # Errors
+    /// [`Error::NoSection`] for a section that the options name, the take lacks and its poses do not tell; those of
+    /// [`Recording::cut`] and [`Recording::resample`].
+    pub fn of<'a>(
+        &self,
+        mut recording: Cow<'a, Recording>,
+        format: FileFormat,
+        options: &WriteOptions,
+    ) -> Result<(Cow<'a, Recording>, Vec<Section>)> {
+        let wanted = self.wanted(format, options);
+        let computed = if wanted.iter().any(|section| recording.take.column(*section).is_none()) {
+            recording.to_mut().complete(wanted)
+        } else {
+            Vec::new()
+        };
+        let lacks = |section: &&Section| recording.take.column(**section).is_none();
+        if let Some(section) = options.sections.iter().flatten().find(lacks) {
+            return Err(Error::NoSection {
+                wanted: section.name(),
+                found: recording.take.sections().map(Section::name).collect(),
+            });
+        }
+        if self.samples != (0..=u32::MAX) {
+            recording.to_mut().cut(&self.samples)?;
+        }
+        if let Some(rate) = self.rate {
+            recording.to_mut().resample(rate)?;
+        }
+        Ok((recording, computed))
+    }
+
+    /// The sections that are computed where they are lacking.
+    fn wanted<'a>(&self, format: FileFormat, options: &'a WriteOptions) -> &'a [Section] {
+        match format {
+            FileFormat::Mvnx | FileFormat::MvnxGz if self.received && options.sections.is_none() => Section::ALL,
+            _ => options.needed(format),
+        }
+    }
+}
 
 /// The rates that a take can be given, samples a second: those that a file can have.
 pub const RATES: Range<f64> = 0.001..1e6;
@@ -108,6 +176,39 @@ mod tests {
         for rate in [-PI, 0.0, 0.0005, 1e6, f64::NAN] {
             assert!(matches!(recording.resample(rate), Err(Error::NewRate { .. })), "{rate}");
         }
+    }
+
+    #[test]
+    fn what_was_asked_for_and_cannot_be_computed_is_an_error() {
+        let mut recording = Recording::from(walk(4));
+        for section in [Section::Velocity, Section::SensorMagneticField] {
+            recording.take.remove_column(section);
+        }
+        let edited = |sections: &[Section], format| {
+            let options = WriteOptions {
+                sections: Some(sections.to_vec()),
+                ..WriteOptions::default()
+            };
+            let edit = Edit {
+                samples: 1..=2,
+                ..Edit::default()
+            };
+            edit.of(Cow::Borrowed(&recording), format, &options)
+        };
+        let (whole, computed) = edited(&[Section::Position, Section::Velocity], FileFormat::Csv).unwrap();
+        assert_eq!((whole.take.samples(), computed), (&[1, 2][..], vec![Section::Velocity]));
+        let error = edited(&[Section::SensorMagneticField], FileFormat::Mvnx).unwrap_err();
+        assert!(
+            matches!(
+                &error,
+                Error::NoSection {
+                    wanted: "sensor_magnetic_field",
+                    ..
+                }
+            ),
+            "{error}"
+        );
+        assert!(error.is_usage() && error.help().is_some());
     }
 
     #[test]

@@ -45,7 +45,7 @@ mod save;
 mod text;
 mod tracks;
 
-pub use edit::RATES;
+pub use edit::{Edit, RATES};
 pub use left_out::LeftOut;
 pub use mvnx::{Rewritten, rewrite};
 pub use options::{Axes, BvhOptions, CsvOptions, MvnxOptions, ParquetOptions, WriteOptions};

@@ -100,6 +100,11 @@ impl Source {
                 let poses = Playback::of_all_poses(path, options)?.into_iter();
                 Ok(poses.map(Kind::Playback).map(source).collect())
             }
+            // One that has poses alone, beside others with datagrams.
+            Err(error @ Error::CapturedSources { .. }) if options.only.is_some() => {
+                let poses = Playback::of_poses(path, options).map_err(|_| error)?;
+                Ok(vec![source(Kind::Playback(poses))])
+            }
             captures => {
                 let captures = captures?.into_iter().map(Box::new);
                 Ok(captures.map(Kind::Capture).map(source).collect())

@@ -62,8 +62,8 @@ impl Default for PlaybackOptions {
 }
 
 impl PlaybackOptions {
-    /// A [`speed`](Self::speed) at which only reading takes time.
-    pub const AT_ONCE: f64 = 1e6;
+    /// A [`speed`](Self::speed) at which only reading takes time: all that stamps can tell passes in a nanosecond.
+    pub const AT_ONCE: f64 = 1e19;
 
     /// What of a capture is played, of all its sources.
     pub(crate) fn selection(&self) -> Selection {
@@ -270,7 +270,8 @@ impl Playback {
     /// Goes back to the start if it is to be looped; `false` when the playback is over.
     fn begin_again(&mut self, schedule: &mut Schedule, outlet: &mut Outlet) -> Result<bool> {
         if let Some(problem) = self.frames.damage() {
-            outlet.push(Item::Notice(Notice::Damaged { problem }));
+            let file = self.frames.name();
+            outlet.push(Item::Notice(Notice::Damaged { file, problem }));
         }
         if !self.options.looped {
             return Ok(self.control.end());

@@ -1,7 +1,7 @@
 //! A recording that holds poses alone, as that of the walker: its samples are played.
 
 use super::playback::{Frames, PlaybackOptions};
-use crate::capture::files_of;
+use crate::capture::{self, files_of};
 use crate::recording::{Posed, SubjectSurvey, Survey};
 use crate::{Error, Result};
 use posewire_motion::kinematics::complete;
@@ -33,6 +33,22 @@ pub(super) fn open_all(path: &Path, options: &PlaybackOptions) -> Result<Vec<Pos
         return Err(held.not_one(path, options));
     }
     meant.into_iter().map(|source| held.open(source, options)).collect()
+}
+
+/// The names of the sources of which a recording has poses and no datagrams, by number; none of other captures.
+///
+/// # Errors
+/// Those of reading it.
+pub(super) fn unheard(path: &Path, survey: &capture::Survey) -> Result<Vec<String>> {
+    if survey.format != capture::Format::Mcap {
+        return Ok(Vec::new());
+    }
+    let mut sources = Held::of(path)?.sources;
+    sources.retain(|number, _| survey.heard().all(|source| source.number != *number));
+    Ok(sources
+        .iter()
+        .map(|(number, name)| format!("{number} {name}"))
+        .collect())
 }
 
 /// What a recording holds, all of its files together.

@@ -8,7 +8,11 @@ use std::time::Duration;
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Timeline {
     Live(Clock),
-    Played(Stamp),
+    Played {
+        now: Stamp,
+        /// The latest that it has been.
+        steady: Stamp,
+    },
 }
 
 impl Timeline {
@@ -16,11 +20,16 @@ impl Timeline {
         Self::Live(Clock::new())
     }
 
-    /// UTC.
+    /// That of a capture which begins then.
+    pub(super) const fn played(at: Stamp) -> Self {
+        Self::Played { now: at, steady: at }
+    }
+
+    /// UTC, which goes back where the clock is set back.
     pub(super) fn now(&self) -> Stamp {
         match self {
             Self::Live(clock) => clock.now(),
-            Self::Played(at) => *at,
+            Self::Played { now, .. } => *now,
         }
     }
 
@@ -28,7 +37,7 @@ impl Timeline {
     pub(super) fn steady(&self) -> Stamp {
         match self {
             Self::Live(clock) => clock.steady(),
-            Self::Played(at) => *at,
+            Self::Played { steady, .. } => *steady,
         }
     }
 
@@ -37,14 +46,14 @@ impl Timeline {
     pub(super) fn arrival(&self, stamp: Stamp, longest: Duration) -> Stamp {
         match self {
             Self::Live(clock) => clock.arrival(stamp, longest),
-            Self::Played(at) => *at,
+            Self::Played { steady, .. } => *steady,
         }
     }
 
     /// Goes on to a time of a capture. What is live goes on by itself.
     pub(super) fn go_on(&mut self, to: Stamp) {
-        if let Self::Played(at) = self {
-            *at = to.max(*at);
+        if let Self::Played { now, steady } = self {
+            (*now, *steady) = (to, to.max(*steady));
         }
     }
 

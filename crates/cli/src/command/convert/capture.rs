@@ -19,7 +19,7 @@ pub(super) fn walk(walk: &Walk, duration: Option<Duration>, stops: &Stops) -> an
 }
 
 /// A live stream until it is stopped or the time is over, or a whole capture: a take for each subject; and how much of it was
-/// lost on this side, of which all behind the damage of a file counts as one.
+/// lost on this side. What ended a file before its end is the takes' damage.
 pub(super) fn live(
     endpoint: &Endpoint,
     only: Option<&str>,
@@ -58,8 +58,13 @@ pub(super) fn live(
         }
         .into());
     }
-    let lost = lost + u64::from(teller.is_damaged());
-    Ok((takes.into_iter().map(Recording::from).collect(), lost))
+    let damage = teller.damage();
+    let recording = |take| {
+        let mut recording = Recording::from(take);
+        recording.damage.clone_from(&damage);
+        recording
+    };
+    Ok((takes.into_iter().map(recording).collect(), lost))
 }
 
 fn announce(source: &Source) {

@@ -92,6 +92,11 @@ impl Job {
         matches!(self.source, Source::Live(_))
     }
 
+    /// Whether it is a live stream, of which nothing is kept anywhere else.
+    pub(super) fn is_stream(&self) -> bool {
+        matches!(&self.source, Source::Live(endpoint) if !matches!(endpoint, Endpoint::Capture { .. }))
+    }
+
     /// The file to write, with the name of one of several subjects in it.
     pub(super) fn target(&self, subject: Option<&str>) -> Target {
         let path = match subject {

@@ -17,6 +17,8 @@ pub(super) struct Report {
     saved: Saved,
     seconds: f64,
     computed: Vec<&'static str>,
+    /// Sections that were asked for and did not come.
+    lacking: Vec<&'static str>,
     damage: Option<String>,
     reordered: Reordered,
 }
@@ -53,6 +55,7 @@ impl Report {
             saved,
             seconds: began.elapsed().as_secs_f64(),
             computed: Vec::new(),
+            lacking: Vec::new(),
             damage: None,
             reordered: Reordered::default(),
         }
@@ -69,14 +72,23 @@ impl Report {
         Self { damage, ..self }
     }
 
-    /// Whether the input ended before its end.
-    pub(super) fn is_damaged(&self) -> bool {
-        self.damage.is_some()
+    /// With sections that were asked for and are not there.
+    pub(super) fn lacking(self, lacking: Vec<&'static str>) -> Self {
+        Self { lacking, ..self }
+    }
+
+    /// Whether something is missing: of the input, or of what was asked for.
+    pub(super) fn is_incomplete(&self) -> bool {
+        self.damage.is_some() || !self.lacking.is_empty()
     }
 
     /// With which samples of the input stood out of order.
     pub(super) fn reordered(self, reordered: Reordered) -> Self {
         Self { reordered, ..self }
+    }
+
+    fn left_out(&self) -> impl Iterator<Item = &str> {
+        self.lacking.iter().copied().chain(self.saved.left_out.iter())
     }
 
     pub(super) fn record(&self) -> ConvertRecord<'_> {
@@ -91,7 +103,7 @@ impl Report {
             files: files.collect(),
             frames: self.frames,
             elapsed_s: self.seconds,
-            left_out: self.saved.left_out.iter().collect(),
+            left_out: self.left_out().collect(),
             computed: &self.computed,
             damage: self.damage.as_deref(),
             moved: self.reordered.moved,
@@ -124,7 +136,7 @@ impl fmt::Display for Report {
             size(bytes),
             self.seconds
         )?;
-        let left_out: Vec<_> = self.saved.left_out.iter().map(printable).collect();
+        let left_out: Vec<_> = self.left_out().map(printable).collect();
         let computed: Vec<_> = self.computed.iter().map(|section| section.replace('_', " ")).collect();
         let damage: Vec<_> = self.damage.iter().map(|damage| printable(damage)).collect();
         write_list(f, "order", &order(self.reordered))?;

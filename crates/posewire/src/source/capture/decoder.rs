@@ -24,7 +24,7 @@ enum Reader<'a> {
 impl<'a> Decoder<'a> {
     /// A reader of MXTP, or of NatNet if it is known how that opened.
     pub(super) fn new(now: Stamp, opening: Option<&Opening>, outlet: &'a mut Outlet) -> Self {
-        let time = Timeline::Played(now);
+        let time = Timeline::played(now);
         let reader = match opening {
             None => Reader::Mxtp(Box::new(mxtp::Intake::at(time, outlet))),
             Some(opening) => Reader::NatNet(Box::new(open_natnet(time, opening, outlet))),
@@ -34,7 +34,7 @@ impl<'a> Decoder<'a> {
 
     /// Takes a datagram that was to be played when it is `due`; `false` when no sink is left.
     pub(super) fn take(&mut self, datagram: &Datagram, due: Option<Instant>) -> bool {
-        self.now = self.now.max(datagram.received);
+        self.now = datagram.received;
         match &mut self.reader {
             Reader::Mxtp(intake) => {
                 intake.go_on(self.now, due);
@@ -63,6 +63,16 @@ impl<'a> Decoder<'a> {
             Reader::NatNet(intake) => intake.go_on(self.now, None),
         }
         self.look()
+    }
+
+    /// How long nothing happens unless a datagram comes; `None` for ever.
+    pub(super) fn next_due(&self) -> Option<Duration> {
+        match &self.reader {
+            Reader::Mxtp(intake) => intake.due().map(|due| due.since(self.now)),
+            // What its client has to do is to ask, and nobody is there to be asked.
+            Reader::NatNet(_) => None,
+        }
+        .filter(|due| !due.is_zero())
     }
 
     pub(super) fn notice(&mut self, notice: Notice) {

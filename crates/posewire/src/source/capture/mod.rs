@@ -4,6 +4,7 @@ mod decoder;
 
 use self::decoder::Decoder;
 use super::playback::PlaybackOptions;
+use super::posed;
 use super::report::TICK;
 use crate::capture::{CaptureOptions, CapturedSource, Due, Opening, Playlist, Protocol, Selection, Survey};
 use crate::pacer::Pacer;
@@ -26,6 +27,8 @@ pub(super) struct CapturePlayback {
     source: CapturedSource,
     opening: Option<Opening>,
     together: Together,
+    /// What is said at the beginning, by one of those that are played together.
+    notice: Option<Notice>,
 }
 
 /// What sources have in common that are played together.
@@ -43,7 +46,9 @@ impl CapturePlayback {
     pub(super) fn open(path: &Path, options: &PlaybackOptions) -> Result<Self> {
         let survey = survey(path, options, &Stop::new())?;
         let source = survey.choose(path, options.only.as_deref())?;
-        Self::of((path, survey.lasts()), options, source, &Together::of(1))
+        let mut capture = Self::of((path, survey.lasts()), options, source, &Together::of(1))?;
+        capture.notice = left_out(path, options, &survey)?;
+        Ok(capture)
     }
 
     /// Opens each source that is meant; all of them if none is named. `stop` ends the reading that this takes.
@@ -56,7 +61,11 @@ impl CapturePlayback {
         }
         let together = Together::of(sources.len());
         let open = |source| Self::of((path, survey.lasts()), options, source, &together);
-        sources.into_iter().map(open).collect()
+        let mut captures = sources.into_iter().map(open).collect::<Result<Vec<_>>>()?;
+        if let Some(first) = captures.first_mut() {
+            first.notice = left_out(path, options, &survey)?;
+        }
+        Ok(captures)
     }
 
     fn of(
@@ -82,6 +91,7 @@ impl CapturePlayback {
             source: source.clone(),
             opening,
             together: together.clone(),
+            notice: None,
         })
     }
 
@@ -91,6 +101,9 @@ impl CapturePlayback {
     }
 
     pub(super) fn run(mut self, outlet: &mut Outlet, stop: &Stop) -> Result<()> {
+        if let Some(notice) = self.notice.take() {
+            outlet.push(Item::Notice(notice));
+        }
         let began = *self.together.began.get_or_init(Instant::now);
         let mut pacer = Pacer::new(began, self.options.speed, stop.clone())?;
         let Some(first) = self.next()? else {
@@ -108,8 +121,10 @@ impl CapturePlayback {
         if let Some(problem) = self.playlist.damage()
             && self.together.damage_told.set(()).is_ok()
         {
-            let problem = problem.to_owned();
-            decoder.notice(Notice::Damaged { problem });
+            decoder.notice(Notice::Damaged {
+                file: self.path.display().to_string(),
+                problem: problem.to_owned(),
+            });
         }
         decoder.finish();
         played
@@ -184,30 +199,51 @@ fn survey(path: &Path, options: &PlaybackOptions, stop: &Stop) -> Result<Survey>
     Survey::of_until(path, &reading(options), stop)
 }
 
+/// The sources that have poses alone, unless one was named.
+fn left_out(path: &Path, options: &PlaybackOptions, survey: &Survey) -> Result<Option<Notice>> {
+    if options.only.is_some() {
+        return Ok(None);
+    }
+    let sources = posed::unheard(path, survey)?;
+    let file = path.display().to_string();
+    Ok((!sources.is_empty()).then_some(Notice::PosesLeftOut { file, sources }))
+}
+
 fn reading(options: &PlaybackOptions) -> CaptureOptions {
     CaptureOptions {
         protocol: options.protocol,
     }
 }
 
-/// Lets the time between two datagrams pass, and what is due in it happen; `false` when asked to stop.
+/// Lets the time between two datagrams pass, and what is due in it happen; `false` when asked to stop. However long it is by
+/// the clock of the capture, the reader is looked after when it has something to do and, as time passes here, each [`TICK`].
 fn pass(
     pacer: &mut Pacer,
     time: std::ops::Range<Duration>,
     decoder: &mut Decoder<'_>,
     options: &PlaybackOptions,
 ) -> bool {
-    let step = TICK.mul_f64(options.speed.clamp(1e-3, 1e3));
+    let tick = tick_at(options.speed);
     let mut at = time.start;
-    while time.end.saturating_sub(at) > step {
+    loop {
+        let step = decoder.next_due().map_or(tick, |due| due.min(tick));
+        if time.end.saturating_sub(at) <= step {
+            return pacer.wait(time.end);
+        }
         at += step;
         if !pacer.wait(at) || !decoder.tick(step) {
             return false;
         }
     }
-    pacer.wait(time.end)
 }
 
+/// How much time of a capture passes in a [`TICK`] of the day.
+fn tick_at(speed: f64) -> Duration {
+    Duration::try_from_secs_f64(TICK.as_secs_f64() * speed.max(SLOWEST)).unwrap_or(Duration::MAX)
+}
+
+/// So that a tick is some time even where next to none passes.
+const SLOWEST: f64 = 1e-3;
 /// Each has a thread that reads the capture. So many sources are several systems; more of them are a network.
 const MOST_TOGETHER: usize = 64;
 

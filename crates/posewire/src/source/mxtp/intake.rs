@@ -74,6 +74,11 @@ impl<'a> Intake<'a> {
         self.forward(at);
     }
 
+    /// When a sample has waited for long enough; `None` while none is open.
+    pub(in crate::source) fn due(&self) -> Option<Stamp> {
+        self.assembler.timeout()
+    }
+
     /// Tells the sinks something about the connection.
     pub(in crate::source) fn notice(&mut self, notice: Notice) {
         self.outlet.push(Item::Notice(notice));

@@ -249,7 +249,7 @@ impl<'a> Intake<'a> {
         self.notice(match self.time {
             Timeline::Live(_) => Notice::Connected { peer },
             // Nobody is there who could be connected to.
-            Timeline::Played(_) => Notice::Remark {
+            Timeline::Played { .. } => Notice::Remark {
                 text: format!("read as {peer}"),
             },
         });
@@ -373,6 +373,6 @@ fn client_options(address: &NatNetAddress, server: SocketAddr, time: Timeline) -
 }
 
 const FRAME_RATE: &str = "FrameRate";
-/// Longer than any capture, and short enough to be added up.
-const FOR_EVER: Duration = Duration::from_hours(24 * 365 * 10);
+/// Longer than stamps can tell, and short enough to be added up.
+const FOR_EVER: Duration = Duration::from_hours(24 * 365 * 1000);
 const LISTEN_AFTER: Duration = Duration::from_secs(1);
