@@ -1,5 +1,6 @@
 //! From datagrams as they arrive to the samples of each character.
 
+mod aside;
 mod character;
 mod counters;
 mod events;
@@ -25,8 +26,11 @@ use std::time::Duration;
 /// [`finish`](Self::finish). Frames of a character come in the order of their samples, except for a sample of which
 /// nothing had arrived when a newer one was done: that is [`late`](Frame::late).
 ///
+/// A sample that does not fit is put aside. Eight that fit each other begin a session, and their frames come then, in their
+/// order; one that nothing follows is counted and gives no frame.
+///
 /// Memory is bounded whatever arrives: 64 characters, four open samples for each of them with 256 KiB of parts of split
-/// messages, and 1024 events that wait to be polled for.
+/// messages, 256 KiB put aside for each, and 1024 events that wait to be polled for.
 ///
 /// ```
 /// use posewire_motion::{DQuat, DVec3, Frame, Skeleton, Stamp, Subject};
@@ -172,7 +176,7 @@ impl Assembler {
     /// Closes all open samples: the source has ended.
     pub fn finish(&mut self) {
         for character in &mut self.characters {
-            character.close_all(&mut self.events);
+            character.finish(&mut self.events);
         }
     }
 
@@ -214,7 +218,7 @@ impl Assembler {
         self.events.dropped()
     }
 
-    /// Bytes held of split messages that are not whole yet.
+    /// Bytes held of split messages that are not whole yet, and of samples that may begin a session.
     pub fn buffered(&self) -> usize {
         self.characters.iter().map(Character::buffered).sum()
     }
@@ -233,7 +237,7 @@ impl Assembler {
         let place = self.longest_silent(now);
         match place {
             Some(place) => {
-                self.characters[place].close_all(&mut self.events);
+                self.characters[place].finish(&mut self.events);
                 self.characters[place] = Character::new(id);
             }
             None => self.refused += 1,

@@ -3,14 +3,16 @@
 mod before;
 mod pace;
 mod runs;
+mod suspects;
 mod window;
 
 use before::{Before, Straggler};
 use pace::Pace;
 use posewire_motion::Stamp;
-use runs::{EqualSteps, OldRun};
+use runs::EqualSteps;
 use std::cmp::Ordering;
 use std::time::Duration;
+use suspects::Suspects;
 use window::{Window, found_by, missing_in};
 
 /// Follows the sample counter of one message type of one character (MV0305 2.4.1.2).
@@ -19,6 +21,9 @@ use window::{Window, found_by, missing_in};
 /// which is learnt from the first eight steps (or more, when they disagree) and again when eight shorter or sixteen
 /// longer equal steps come in a row. Losses are counted in strides. A counter that wraps around goes on; one that goes
 /// back, or forward further than the time that passed explains, begins a new session, and what lies between is no loss.
+///
+/// One sample that does not fit changes nothing: a session begins with eight that fit each other, and then with the first
+/// of them. Until they are eight, each is counted as what it is if the session goes on.
 ///
 /// What is missing depends on the set of samples that came and not on their order: a sample that comes late is no
 /// longer missing. That holds for half a second across the beginning of a session too.
@@ -32,7 +37,7 @@ pub struct Sequence {
     /// Samples that were missing when the session began.
     missing_before: u64,
     other_steps: EqualSteps,
-    old: OldRun,
+    suspects: Suspects,
     pace: Pace,
     before: Option<Box<Before>>,
 }
@@ -68,14 +73,17 @@ pub enum Observation {
     Duplicate,
     /// Of the session before, and seen for the first time: late.
     Straggler,
-    /// A new session: this is its newest sample.
+    /// Of no session that is known: late, unless seven others show that it began one.
+    Stray,
+    /// A new session, of which this and those before it are that were taken for something else.
     Reset(ResetKind),
 }
 
 /// How a session began that is not the first.
 ///
-/// A counter is taken to have gone back when it did so further than samples can be late, when it did after half a second
-/// of silence, or when eight known or older samples came in a row and no new one.
+/// A counter is taken to have gone back when it did after half a second of silence, or when eight samples came in a row
+/// that are known, older or too far away, and no new one (where they are too far away to be late, five new ones at most).
+/// Where all samples of the session, three at least, came again in their order, the next one is enough.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ResetKind {
     /// The counter went back to where it can have come from 0 since the newest sample: a new session of the sender.
@@ -86,6 +94,17 @@ pub enum ResetKind {
     Jump,
 }
 
+/// Where a sample belongs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Home {
+    /// In the session that goes on, be it new, late or known.
+    Session,
+    /// In the session before.
+    Before,
+    /// In neither.
+    Nowhere,
+}
+
 impl Sequence {
     /// A sequence that has seen nothing.
     pub fn new() -> Self {
@@ -94,14 +113,53 @@ impl Sequence {
 
     /// Takes note of a sample that was received at `now`.
     pub fn observe(&mut self, sample: u32, now: Stamp) -> Observation {
+        self.judge(sample, now).0
+    }
+
+    /// Takes note of a sample that was received at `now`, and says where it belongs.
+    pub(crate) fn judge(&mut self, sample: u32, now: Stamp) -> (Observation, Home) {
         let Some(newest) = self.newest() else {
-            self.begin(&[sample], now);
-            return Observation::New { missing_before: 0 };
+            return (self.forward(sample, 0, now), Home::Session);
         };
-        match sample.wrapping_sub(newest) {
-            step @ 1..HALF => self.forward(sample, step, now),
-            _ => self.backward(sample, newest.wrapping_sub(sample), now),
+        let (step, behind) = (sample.wrapping_sub(newest), newest.wrapping_sub(sample));
+        let silent = now.since(self.pace.newest) > SILENCE;
+        match step {
+            1..HALF if self.begins_again(sample) => (self.take_over(sample, now), Home::Session),
+            1..HALF if self.is_jump(step, now) || self.goes_on_ahead(sample) => self.suspect(sample, now),
+            1..HALF => (self.forward(sample, step, now), Home::Session),
+            _ if behind > 0 && silent => (self.begin_after_silence(sample, now), Home::Session),
+            _ if self.is_too_old(behind) => self.suspect(sample, now),
+            _ => (self.known(sample, now), Home::Session),
         }
+    }
+
+    /// Takes note of a sample of which is known where it belongs.
+    pub(crate) fn follow(&mut self, sample: u32, now: Stamp, home: Home) -> Observation {
+        match (home, self.newest()) {
+            (Home::Session, Some(newest)) => match sample.wrapping_sub(newest) {
+                step @ 1..HALF => self.forward(sample, step, now),
+                _ => self.backward(sample),
+            },
+            (Home::Session, None) => self.forward(sample, 0, now),
+            (Home::Before, _) => self.straggler(sample, now).unwrap_or_else(|| self.stray()),
+            (Home::Nowhere, _) => self.stray(),
+        }
+    }
+
+    /// Begins a session with a sample that was received at `now`.
+    pub(crate) fn restart(&mut self, kind: ResetKind, sample: u32, now: Stamp) {
+        self.count_session(kind);
+        self.begin(&[sample], now);
+    }
+
+    /// Whether a sample is one of those that may have begun another session.
+    pub(crate) fn suspects(&self, sample: u32) -> bool {
+        self.suspects.hold(sample)
+    }
+
+    /// Whether a sample is remembered as one of this session.
+    pub(crate) fn remembers(&self, sample: u32) -> bool {
+        self.window.contains(sample)
     }
 
     /// What happened so far.
@@ -120,11 +178,11 @@ impl Sequence {
     }
 
     fn forward(&mut self, sample: u32, step: u32, now: Stamp) -> Observation {
-        if self.is_jump(step, now) {
-            let straggler = self.straggler(sample, now);
-            return straggler.unwrap_or_else(|| self.reset(ResetKind::Jump, sample, now));
+        if self.newest().is_none() {
+            self.begin(&[sample], now);
+            return Observation::New { missing_before: 0 };
         }
-        self.old.clear();
+        self.suspects.note_new();
         self.pace.advance(step, now);
         self.window.push(sample);
         if self.settled {
@@ -137,14 +195,7 @@ impl Sequence {
         }
     }
 
-    fn backward(&mut self, sample: u32, behind: u32, now: Stamp) -> Observation {
-        if self.is_too_old(behind) || behind > 0 && now.since(self.pace.newest) > SILENCE {
-            let straggler = self.straggler(sample, now);
-            return straggler.unwrap_or_else(|| self.reset(self.kind_of_return(sample, now), sample, now));
-        }
-        if self.old.extend(sample, self.tally) {
-            return self.take_over_run(now);
-        }
+    fn backward(&mut self, sample: u32) -> Observation {
         if let Some(neighbours) = self.window.insert(sample) {
             self.tally.late += 1;
             self.count_inserted(sample, neighbours);
@@ -155,17 +206,9 @@ impl Sequence {
         }
     }
 
-    /// Takes a sample for one of the session before, if it can be. Eight of them in a row are not, nor three that go on
-    /// from it: then it was this session that was none.
+    /// Takes a sample for one of the session before, if it can be.
     fn straggler(&mut self, sample: u32, now: Stamp) -> Option<Observation> {
-        let before = self.before.as_mut()?;
-        let tally = self.tally;
-        let straggler = before.take(sample, now)?;
-        let continued = before.continued();
-        if self.old.extend(sample, tally) || continued.min(self.old.samples().len()) >= RESUMED {
-            return Some(self.take_over_run(now));
-        }
-        Some(match straggler {
+        Some(match self.before.as_mut()?.take(sample, now)? {
             Straggler::Again => {
                 self.tally.duplicate += 1;
                 Observation::Duplicate
@@ -177,6 +220,72 @@ impl Sequence {
                 Observation::Straggler
             }
         })
+    }
+
+    const fn stray(&mut self) -> Observation {
+        self.tally.late += 1;
+        Observation::Stray
+    }
+
+    /// Takes a sample that came already, or late, for what it seems to be, unless there are eight of them.
+    fn known(&mut self, sample: u32, now: Stamp) -> Observation {
+        let before = self.tally;
+        let observation = self.backward(sample);
+        self.note_suspect(sample, true, before);
+        if self.suspects.are_enough() {
+            return self.take_over(sample, now);
+        }
+        observation
+    }
+
+    /// Takes a sample that cannot be one of this session for one of the session before or a stray. Eight of them are a
+    /// session, and three that go on from the one before: then it was this session that was none.
+    fn suspect(&mut self, sample: u32, now: Stamp) -> (Observation, Home) {
+        let before = self.tally;
+        let (observation, home) = match self.straggler(sample, now) {
+            Some(observation) => (observation, Home::Before),
+            None => (self.stray(), Home::Nowhere),
+        };
+        self.note_suspect(sample, false, before);
+        if self.suspects.are_enough() || self.has_resumed() {
+            return (self.take_over(sample, now), Home::Session);
+        }
+        (observation, home)
+    }
+
+    fn note_suspect(&mut self, sample: u32, at_home: bool, before: Tally) {
+        if self.suspects.add(sample, at_home, self.stride.unwrap_or(1)) {
+            self.suspects.note_counted(before, self.tally);
+        }
+    }
+
+    /// Whether the session before goes on, and this one does not.
+    fn has_resumed(&self) -> bool {
+        let continued = self.before.as_ref().map_or(0, |before| before.continued());
+        continued.min(self.suspects.samples().len()) >= RESUMED && !self.suspects.are_contradicted()
+    }
+
+    /// Whether all samples of the session have come again, and this is the next.
+    fn begins_again(&self, sample: u32) -> bool {
+        let again = self.suspects.samples();
+        again.len() >= RESUMED && self.window.is(again) && self.suspects.lead_to(sample, self.stride.unwrap_or(1))
+    }
+
+    /// Whether a sample goes on with suspects that are newer than the session.
+    fn goes_on_ahead(&self, sample: u32) -> bool {
+        let (Some(last), Some(newest)) = (self.suspects.samples().last(), self.newest()) else {
+            return false;
+        };
+        matches!(last.wrapping_sub(newest), 1..HALF) && self.suspects.lead_to(sample, self.stride.unwrap_or(1))
+    }
+
+    /// After a silence what goes back needs no others. Those right before it are its own all the same.
+    fn begin_after_silence(&mut self, sample: u32, now: Stamp) -> Observation {
+        let follows = |last: &u32| sample.wrapping_sub(*last) == self.stride.unwrap_or(1);
+        if !self.suspects.samples().last().is_some_and(follows) {
+            self.suspects = Suspects::of(sample, false);
+        }
+        self.take_over(sample, now)
     }
 
     /// What a counter does that goes back to `sample`.
@@ -206,21 +315,17 @@ impl Sequence {
         behind > span && (self.window.is_full() || behind > slack)
     }
 
-    fn reset(&mut self, kind: ResetKind, sample: u32, now: Stamp) -> Observation {
-        self.count_session(kind);
-        self.begin(&[sample], now);
-        Observation::Reset(kind)
-    }
-
-    /// Takes the run of old samples for the beginning of a session.
-    fn take_over_run(&mut self, now: Stamp) -> Observation {
-        let run = self.old;
-        let latest = run.samples().last().copied().unwrap_or_default();
-        let kind = match latest.wrapping_sub(self.newest().unwrap_or(latest)) {
+    /// Takes the suspects for the beginning of a session, `sample` the latest of them.
+    fn take_over(&mut self, sample: u32, now: Stamp) -> Observation {
+        let mut run = self.suspects;
+        run.add(sample, false, self.stride.unwrap_or(1));
+        let latest = run.samples().last().copied().unwrap_or(sample);
+        let first = run.samples().first().copied().unwrap_or(sample);
+        let kind = match first.wrapping_sub(self.newest().unwrap_or(first)) {
             1..HALF => ResetKind::Jump,
             _ => self.kind_of_return(latest, now),
         };
-        self.tally = run.tally();
+        self.tally = run.taken_out_of(self.tally);
         self.count_session(kind);
         self.begin(run.samples(), now);
         Observation::Reset(kind)
@@ -240,7 +345,7 @@ impl Sequence {
         self.window.restart(samples);
         self.missing_before = self.tally.missing;
         self.other_steps = EqualSteps::default();
-        self.old.clear();
+        self.suspects.clear();
         self.pace.newest = now;
         self.settled = false;
         self.learn();
@@ -286,11 +391,11 @@ impl Sequence {
     }
 }
 
-/// How many steps teach a stride, and how many old samples in a row make a rewind.
+/// How many steps teach a stride, and how many samples make a session.
 const LESSON: usize = 8;
 /// How many steps teach a stride when fewer than three of four are equal.
 const LONG_LESSON: usize = 64;
-/// How many samples in a row show that the session before goes on.
+/// How many samples in a row show that the session before goes on, or that a short one begins again.
 const RESUMED: usize = 3;
 /// Strides that may be missing whatever the time says.
 const SHORT_GAP: f64 = 16.0;

@@ -1,12 +1,16 @@
 //! One character: the samples that are open, and what was counted.
 
-use super::counters::{Counters, SampleCounts, Stream};
+mod sessions;
+
+use super::aside::Aside;
+use super::counters::{Counters, SampleCounts, Session, Stream};
 use super::events::Events;
 use super::sample::{OpenSample, Stored, added, segments};
 use super::{Event, MAX_OPEN};
 use crate::body::Body;
 use crate::description::Description;
 use crate::motion::MessageTypes;
+use crate::sequence::Home;
 use crate::{Datagram, DatagramCounter, Header, MessageType, Observation, Sequence};
 use posewire_motion::{Frame, Stamp, Subject};
 use std::collections::VecDeque;
@@ -22,6 +26,9 @@ pub(super) struct Character {
     streams: Vec<Stream>,
     /// Tells new samples from those whose frame is done.
     samples: Sequence,
+    session: Session,
+    /// What may be the beginning of another session.
+    aside: Aside,
     /// The oldest first.
     open: VecDeque<OpenSample>,
     /// The samples closed last.
@@ -55,7 +62,18 @@ struct Arrival<'a> {
     datagram: &'a Datagram<'a>,
     /// The place of the datagram's stream.
     stream: usize,
+    standing: Standing,
     events: &'a mut Events,
+}
+
+/// Whether a datagram comes for the first time, or from aside.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Standing {
+    Arriving,
+    /// It was put aside, and the message told of or not.
+    Held {
+        told: bool,
+    },
 }
 
 impl Character {
@@ -65,6 +83,8 @@ impl Character {
             heard: Stamp::default(),
             streams: Vec::new(),
             samples: Sequence::new(),
+            session: Session::default(),
+            aside: Aside::default(),
             open: VecDeque::new(),
             closed: VecDeque::new(),
             closed_before: VecDeque::new(),
@@ -102,9 +122,9 @@ impl Character {
         }
     }
 
-    /// Bytes of parts of split messages.
+    /// Bytes of parts of split messages, and of what is put aside.
     pub(super) fn buffered(&self) -> usize {
-        self.open.iter().map(OpenSample::buffered).sum()
+        self.open.iter().map(OpenSample::buffered).sum::<usize>() + self.aside.buffered()
     }
 
     /// When the first of the open samples has waited long enough.
@@ -121,6 +141,7 @@ impl Character {
             bytes,
             datagram,
             stream,
+            standing: Standing::Arriving,
             events,
         };
         match datagram.body {
@@ -150,7 +171,13 @@ impl Character {
         })
     }
 
-    pub(super) fn close_all(&mut self, events: &mut Events) {
+    /// Closes what is open and drops what is aside.
+    pub(super) fn finish(&mut self, events: &mut Events) {
+        self.aside.retain(|_| false);
+        self.close_all(events);
+    }
+
+    fn close_all(&mut self, events: &mut Events) {
         while !self.open.is_empty() {
             self.close_oldest(events);
         }
@@ -202,37 +229,40 @@ impl Character {
     fn assemble(&mut self, arrival: &mut Arrival<'_>) {
         let header = &arrival.datagram.header;
         match self.place(header, arrival) {
-            Some(place) => self.add(place, arrival),
-            None => self.add_too_late(arrival),
+            Ok(place) => self.add(place, arrival),
+            Err(home) => self.add_too_late(home, arrival),
         }
         self.close_complete(arrival.events);
     }
 
-    /// The place of the open sample that a datagram belongs to; `None` when its frame is done.
+    /// The place of the open sample that a datagram belongs to; where it belongs otherwise when its frame is done, or never
+    /// will be.
     #[inline]
-    fn place(&mut self, header: &Header, arrival: &mut Arrival<'_>) -> Option<usize> {
+    fn place(&mut self, header: &Header, arrival: &mut Arrival<'_>) -> Result<usize, Home> {
         let known = self.open.iter().position(|sample| sample.number == header.sample);
-        if known.is_some() {
-            return known;
+        if let Some(place) = known {
+            return Ok(place);
         }
-        match self.samples.observe(header.sample, arrival.now) {
-            Observation::Duplicate | Observation::Straggler => return None,
-            Observation::Reset(_) => self.begin_session(arrival.events),
-            Observation::New { .. } | Observation::Late => {}
+        let (observation, home) = self.samples.judge(header.sample, arrival.now);
+        if let Observation::Reset(kind) = observation {
+            self.begin_session(kind, header.sample, arrival.events);
+        } else {
+            self.aside.retain(|sample| self.samples.suspects(sample));
         }
+        match observation {
+            Observation::Duplicate | Observation::Straggler | Observation::Stray => Err(home),
+            _ => Ok(self.open_sample(header, arrival.now)),
+        }
+    }
+
+    fn open_sample(&mut self, header: &Header, now: Stamp) -> usize {
         let frame = self.spare_frame();
-        let mut sample = OpenSample::new(header, arrival.now, frame, self.description.subject());
+        let mut sample = OpenSample::new(header, now, frame, self.description.subject());
         sample.overtaken = self.closed.iter().any(|closed| is_newer(closed.number, header.sample));
         let newer = |open: &OpenSample| is_newer(open.number, header.sample);
         let place = self.open.iter().position(newer).unwrap_or(self.open.len());
         self.open.insert(place, sample);
-        Some(place)
-    }
-
-    /// Forgets the numbers of the session before, but not what its samples had.
-    fn begin_session(&mut self, events: &mut Events) {
-        self.close_all(events);
-        self.closed_before = std::mem::take(&mut self.closed);
+        place
     }
 
     /// Adds a datagram to an open sample.
@@ -240,12 +270,12 @@ impl Character {
         let (header, stream) = (&arrival.datagram.header, &mut self.streams[arrival.stream]);
         let (message_type, sample) = (header.message_type, &mut self.open[place]);
         if sample.whole.contains(message_type) {
-            stream.observe(header.sample, arrival.now);
+            stream.observe(header.sample, arrival.now, Home::Session, self.session);
             return;
         }
         if !sample.seen.contains(message_type) {
             sample.seen = sample.seen.with(message_type);
-            stream.observe(header.sample, arrival.now);
+            stream.observe(header.sample, arrival.now, Home::Session, self.session);
         }
         if header.counter == DatagramCounter::SINGLE {
             self.add_whole(place, arrival);
@@ -268,7 +298,7 @@ impl Character {
         let message_type = arrival.datagram.header.message_type;
         let stored = self.open[place].store(arrival.bytes, arrival.datagram);
         match stored {
-            Stored::Again => self.streams[arrival.stream].note_part_again(),
+            Stored::Again => self.streams[arrival.stream].note_again(),
             Stored::Full => {}
             Stored::Waiting => {
                 self.adopt_layout(place, None, arrival);
@@ -284,17 +314,16 @@ impl Character {
         }
     }
 
-    /// Counts a datagram whose frame is done.
-    fn add_too_late(&mut self, arrival: &mut Arrival<'_>) {
+    fn count_too_late(&mut self, home: Home, arrival: &mut Arrival<'_>) {
         let header = &arrival.datagram.header;
         let single = header.counter == DatagramCounter::SINGLE;
-        let part_lost = self.note_closed(header);
+        let part_lost = home != Home::Nowhere && self.note_closed(header);
         let stream = &mut self.streams[arrival.stream];
         if part_lost {
             stream.note_too_late();
             return;
         }
-        let observation = stream.observe(header.sample, arrival.now);
+        let observation = stream.observe(header.sample, arrival.now, home, self.session);
         if matches!(observation, Observation::New { .. }) {
             stream.note_too_late();
         }
@@ -326,7 +355,12 @@ impl Character {
     #[inline]
     fn adopt_layout(&mut self, place: usize, segments: Option<usize>, arrival: &mut Arrival<'_>) -> usize {
         let header = &arrival.datagram.header;
-        if self.samples.newest() != Some(header.sample) {
+        let is_newest = match arrival.standing {
+            Standing::Arriving => self.samples.newest() == Some(header.sample),
+            // They come in the order of their samples.
+            Standing::Held { .. } => true,
+        };
+        if !is_newest {
             return place;
         }
         // Headers of one sample that contradict each other must not undo it again and again.
@@ -359,6 +393,9 @@ impl Character {
     fn receive(&mut self, arrival: &mut Arrival<'_>) {
         let stream = &mut self.streams[arrival.stream];
         stream.counters.received += 1;
+        if arrival.standing == (Standing::Held { told: true }) {
+            return;
+        }
         arrival.events.push(Event::Message {
             character: self.id,
             message_type: stream.message_type,
@@ -462,14 +499,14 @@ impl Character {
             .streams
             .binary_search_by_key(&message_type, |stream| stream.message_type);
         place.unwrap_or_else(|place| {
-            self.streams.insert(place, Stream::new(message_type));
+            self.streams.insert(place, Stream::new(message_type, self.session));
             place
         })
     }
 }
 
 /// Whether a sample comes after another; the counter wraps around.
-fn is_newer(sample: u32, than: u32) -> bool {
+pub(super) fn is_newer(sample: u32, than: u32) -> bool {
     matches!(sample.wrapping_sub(than), 1..0x8000_0000)
 }
 

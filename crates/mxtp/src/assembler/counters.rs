@@ -1,6 +1,7 @@
 //! What is counted of each message type of each character.
 
-use crate::{Error, Header, MessageType, Observation, Quirk, Quirks, Sequence};
+use crate::sequence::Home;
+use crate::{Error, Header, MessageType, Observation, Quirk, Quirks, ResetKind, Sequence};
 use posewire_motion::Stamp;
 
 /// What was counted of one message type of one character.
@@ -17,7 +18,8 @@ pub struct Counters {
     pub missing: u64,
     /// Messages that came again, and parts of split messages that did.
     pub duplicate: u64,
-    /// Messages that came after a newer sample's, or when the frame of their sample was already done.
+    /// Messages that came after a newer sample's, or when the frame of their sample was already done, and those of a
+    /// sample that fits nowhere and that none followed.
     pub late: u64,
     /// How often the sample counter started anew: [`ResetKind::Restart`](crate::ResetKind::Restart).
     pub reset: u64,
@@ -90,19 +92,52 @@ pub(super) struct Stream {
     pub(super) message_type: MessageType,
     pub(super) counters: Counters,
     sequence: Sequence,
-    /// Duplicates and late ones that the sequence does not know of.
-    parts_again: u64,
-    too_late: u64,
+    /// What the sequence does not know of.
+    beyond: Fate,
+    /// The session of the character that the sequence follows.
+    session: u64,
+}
+
+/// By how much a datagram changes the counters of its stream.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Fate {
+    missing: i64,
+    duplicate: i64,
+    late: i64,
+    received: i64,
+}
+
+impl Fate {
+    /// Whether it was told of as a message.
+    pub(super) const fn is_received(&self) -> bool {
+        self.received > 0
+    }
+}
+
+/// Which session of a character goes on, and how it began.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Session {
+    number: u64,
+    kind: Option<ResetKind>,
+}
+
+impl Session {
+    pub(super) const fn next(self, kind: ResetKind) -> Self {
+        Self {
+            number: self.number + 1,
+            kind: Some(kind),
+        }
+    }
 }
 
 impl Stream {
-    pub(super) fn new(message_type: MessageType) -> Self {
+    pub(super) fn new(message_type: MessageType, session: Session) -> Self {
         Self {
             message_type,
             counters: Counters::default(),
             sequence: Sequence::new(),
-            parts_again: 0,
-            too_late: 0,
+            beyond: Fate::default(),
+            session: session.number,
         }
     }
 
@@ -118,32 +153,86 @@ impl Stream {
     }
 
     /// Takes note of the first datagram of a message, or of a message that came again.
-    pub(super) fn observe(&mut self, sample: u32, now: Stamp) -> Observation {
-        let duplicate = self.sequence.tally().duplicate;
-        let observation = self.sequence.observe(sample, now);
-        // Messages that looked like duplicates until it showed that the counter had gone back.
-        self.counters.received += duplicate.saturating_sub(self.sequence.tally().duplicate);
+    pub(super) fn observe(&mut self, sample: u32, now: Stamp, home: Home, session: Session) -> Observation {
+        let begun = session.number - self.session;
+        let observation = match (home, session.kind) {
+            (Home::Session, Some(kind)) if begun > 0 => self.begin(sample, now, kind, session),
+            // Of what has begun since, this stream has had nothing yet.
+            (Home::Before, _) if begun > 0 => self.sequence.follow(sample, now, Home::Session),
+            _ => self.sequence.follow(sample, now, home),
+        };
         self.tally();
         observation
     }
 
-    /// Takes note of a part that came again.
-    pub(super) fn note_part_again(&mut self) {
-        self.parts_again += 1;
+    fn begin(&mut self, sample: u32, now: Stamp, kind: ResetKind, session: Session) -> Observation {
+        self.session = session.number;
+        if self.sequence.newest().is_none() {
+            return self.sequence.follow(sample, now, Home::Session);
+        }
+        self.sequence.restart(kind, sample, now);
+        Observation::Reset(kind)
+    }
+
+    /// The counters that a datagram changes, to tell by how much it did.
+    pub(super) fn fate(&self) -> Fate {
+        let counters = &self.counters;
+        Fate {
+            missing: counters.missing.cast_signed(),
+            duplicate: counters.duplicate.cast_signed(),
+            late: counters.late.cast_signed(),
+            received: counters.received.cast_signed(),
+        }
+    }
+
+    /// By how much the counters have changed.
+    pub(super) fn fate_since(&self, before: Fate) -> Fate {
+        let now = self.fate();
+        Fate {
+            missing: now.missing - before.missing,
+            duplicate: now.duplicate - before.duplicate,
+            late: now.late - before.late,
+            received: now.received - before.received,
+        }
+    }
+
+    /// Takes back what a datagram was counted as.
+    pub(super) fn take_back(&mut self, fate: Fate) {
+        self.beyond.missing -= fate.missing;
+        self.beyond.duplicate -= fate.duplicate;
+        self.beyond.late -= fate.late;
+        self.counters.received = self.counters.received.saturating_add_signed(-fate.received);
+        self.tally();
+    }
+
+    /// How many messages came in their order.
+    pub(super) const fn in_order(&self) -> i64 {
+        self.counters.received.cast_signed() - self.counters.late.cast_signed()
+    }
+
+    /// Counts the messages as late that came in their order since there were so many of them.
+    pub(super) fn note_overtaken_since(&mut self, in_order: i64) {
+        self.beyond.late += (self.in_order() - in_order).max(0);
+        self.tally();
+    }
+
+    /// Takes note of a part, or of a datagram put aside, that came again.
+    pub(super) fn note_again(&mut self) {
+        self.beyond.duplicate += 1;
         self.tally();
     }
 
     /// Takes note of a message or part whose frame is already done.
     pub(super) fn note_too_late(&mut self) {
-        self.too_late += 1;
+        self.beyond.late += 1;
         self.tally();
     }
 
     fn tally(&mut self) {
         let tally = self.sequence.tally();
-        self.counters.missing = tally.missing;
-        self.counters.duplicate = tally.duplicate + self.parts_again;
-        self.counters.late = tally.late + self.too_late;
+        self.counters.missing = tally.missing.saturating_add_signed(self.beyond.missing);
+        self.counters.duplicate = tally.duplicate.saturating_add_signed(self.beyond.duplicate);
+        self.counters.late = tally.late.saturating_add_signed(self.beyond.late);
         self.counters.reset = tally.reset;
         self.counters.rewound = tally.rewound;
         self.counters.jumped = tally.jumped;

@@ -48,7 +48,9 @@ impl Before {
         if matches!(step, 1..HALF) {
             return self.go_on(sample, step);
         }
-        self.continued = 0;
+        if step != 0 {
+            self.continued = 0;
+        }
         if newest.wrapping_sub(sample) > newest.wrapping_sub(oldest) {
             return None;
         }

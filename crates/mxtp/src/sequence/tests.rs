@@ -11,6 +11,13 @@ fn observe(sequence: &mut Sequence, samples: impl IntoIterator<Item = u32>) -> V
     samples.into_iter().map(step).collect()
 }
 
+/// What the last of eight samples is, a period apart and a stride of `stride` from the first, that is received at `now`.
+fn eighth(mut sequence: Sequence, first: u32, stride: u32, now: Stamp) -> Observation {
+    let samples = (0..8).zip(std::iter::successors(Some(now), |now| Some(now.after(PERIOD))));
+    let seen = samples.map(|(place, now)| sequence.observe(first + place * stride, now));
+    seen.last().unwrap()
+}
+
 fn tally(missing: u64, duplicate: u64, late: u64, reset: u64) -> Tally {
     Tally {
         missing,
@@ -86,7 +93,8 @@ fn a_stream_that_begins_out_of_order_misses_nothing() {
 fn a_new_session_is_a_reset() {
     let mut sequence = Sequence::new();
     let seen = observe(&mut sequence, (1000..1400).chain(0..10));
-    assert_eq!(seen[400], Observation::Reset(ResetKind::Restart));
+    assert_eq!(seen[400..407], [Observation::Stray; 7]);
+    assert_eq!(seen[407], Observation::Reset(ResetKind::Restart));
     assert_eq!(sequence.tally(), tally(0, 0, 0, 1));
 }
 
@@ -121,7 +129,7 @@ fn a_rewind_into_a_gap_gives_back_what_was_missing() {
 fn a_jump_forward_is_no_loss_but_an_outage_is() {
     let mut jump = Sequence::new();
     let seen = observe(&mut jump, (0..100).chain(5000..5010));
-    assert_eq!(seen[100], Observation::Reset(ResetKind::Jump));
+    assert_eq!(seen[107], Observation::Reset(ResetKind::Jump));
     let jumped = Tally {
         jumped: 1,
         ..Tally::default()
@@ -165,11 +173,11 @@ fn a_counter_that_began_anew_during_a_silence_is_a_reset_and_no_rewind() {
     observe(&mut sequence, 0..2000);
     let later = sequence.pace.newest.after(Duration::from_secs(3));
     assert_eq!(sequence.observe(740, later), Observation::Reset(ResetKind::Restart));
-    let soon = later.after(Duration::from_millis(4));
+    let soon = later.after(PERIOD);
     let mut other = Sequence::new();
     observe(&mut other, 0..2000);
     other.pace.newest = later;
-    assert_eq!(other.observe(740, soon), Observation::Reset(ResetKind::Rewind));
+    assert_eq!(eighth(other, 740, 1, soon), Observation::Reset(ResetKind::Rewind));
 }
 
 #[test]
@@ -178,16 +186,25 @@ fn what_is_left_of_the_session_before_is_late_and_no_session_of_its_own() {
     let before = (0..997).chain([998]);
     let seen = observe(&mut sequence, before.chain([0, 997, 1, 999, 999, 2, 3]));
     let expected = [
+        Observation::Stray,
+        Observation::Late,
+        Observation::Stray,
+        Observation::New { missing_before: 0 },
+        Observation::Duplicate,
+        Observation::Stray,
+        Observation::Stray,
+    ];
+    assert_eq!(seen[998..], expected);
+    let seen = observe(&mut sequence, [4, 5, 6, 7, 1000, 8, 1000, 9]);
+    let expected = [
         Observation::Reset(ResetKind::Restart),
         Observation::Straggler,
         Observation::New { missing_before: 0 },
-        Observation::Straggler,
         Observation::Duplicate,
         Observation::New { missing_before: 0 },
-        Observation::New { missing_before: 0 },
     ];
-    assert_eq!(seen[998..], expected);
-    assert_eq!(sequence.tally(), tally(0, 1, 2, 1));
+    assert_eq!(seen[3..], expected);
+    assert_eq!(sequence.tally(), tally(0, 2, 2, 1));
 }
 
 #[test]
@@ -203,17 +220,88 @@ fn a_sender_that_goes_back_to_the_session_before_is_believed_after_eight_samples
 }
 
 #[test]
-fn a_sample_with_a_number_out_of_nowhere_takes_two_others_with_it_at_most() {
-    let mut sequence = Sequence::new();
-    let seen = observe(&mut sequence, (0..1000).chain([1 << 30]).chain(1000..1010));
-    assert_eq!(seen[1000], Observation::Reset(ResetKind::Jump));
-    assert_eq!(seen[1003], Observation::Reset(ResetKind::Rewind));
-    let expected = Tally {
-        rewound: 1,
-        jumped: 1,
-        ..Tally::default()
+fn a_sample_with_a_number_out_of_nowhere_is_late_and_changes_nothing() {
+    for stray in [1 << 30, 3, 700, 1500] {
+        let mut sequence = Sequence::new();
+        let seen = observe(&mut sequence, (0..1000).chain([stray]).chain(1000..1010));
+        assert_eq!(seen[1000], Observation::Stray);
+        assert_eq!(seen[1001..], [Observation::New { missing_before: 0 }; 10]);
+        assert_eq!((sequence.tally(), sequence.newest()), (tally(0, 0, 1, 0), Some(1009)));
+    }
+}
+
+#[test]
+fn a_sample_out_of_nowhere_after_a_silence_begins_a_session_and_the_one_before_goes_on() {
+    let (mut sequence, now) = seen(0..1000);
+    let later = now.after(Duration::from_secs(1));
+    assert_eq!(sequence.observe(200, later), Observation::Reset(ResetKind::Restart));
+    let seen = observe(&mut sequence, 1000..1010);
+    assert_eq!(seen[..2], [Observation::Straggler; 2]);
+    assert_eq!(seen[2], Observation::Reset(ResetKind::Jump));
+    assert_eq!((sequence.tally().late, sequence.tally().missing), (0, 0));
+}
+
+#[test]
+fn five_new_samples_between_those_of_a_session_do_not_hide_it_and_six_do() {
+    let between = |new: u32| {
+        let mixed = (0..new).flat_map(|n| [n, 1000 + n]).chain(new..8);
+        observe(&mut Sequence::new(), (0..1000).chain(mixed)).pop()
     };
-    assert_eq!((sequence.tally(), sequence.newest()), (expected, Some(1009)));
+    assert_eq!(between(5), Some(Observation::Reset(ResetKind::Restart)));
+    assert_eq!(between(6), Some(Observation::Stray));
+}
+
+#[test]
+fn a_stray_among_the_first_samples_of_a_session_does_not_hide_it() {
+    for place in 0..8 {
+        let run = (0..place).chain([50_000]).chain(place..8);
+        let (mut sequence, _) = seen((0..1000).chain(run));
+        assert_eq!(sequence.newest(), Some(7), "{place}");
+        assert_eq!(sequence.tally(), tally(0, 0, 1, 1), "{place}");
+        assert!((0..8).all(|sample| sequence.remembers(sample)), "{place}");
+        observe(&mut sequence, 8..40);
+        assert_eq!(sequence.tally(), tally(0, 0, 1, 1), "{place}");
+    }
+}
+
+#[test]
+fn the_first_samples_of_a_session_may_swap() {
+    for place in 0..7 {
+        let mut run: Vec<u32> = (0..8).collect();
+        run.swap(place, place + 1);
+        let (sequence, _) = seen((0..1000).chain(run));
+        assert_eq!((sequence.newest(), sequence.tally()), (Some(7), tally(0, 0, 0, 1)));
+    }
+}
+
+#[test]
+fn a_session_of_three_samples_that_all_come_again_begins_anew_with_the_next() {
+    let (mut sequence, _) = seen((0..3).chain(0..3));
+    assert_eq!(sequence.tally(), tally(0, 3, 0, 0));
+    assert_eq!(observe(&mut sequence, [3]), [Observation::Reset(ResetKind::Restart)]);
+    assert_eq!(sequence.tally(), tally(0, 0, 0, 1));
+    assert!((0..4).all(|sample| sequence.remembers(sample)));
+    let (mut shorter, _) = seen([0, 1, 0, 1]);
+    assert_eq!(observe(&mut shorter, [2]), [Observation::New { missing_before: 0 }]);
+}
+
+#[test]
+fn eight_samples_of_a_jump_are_one_though_the_time_comes_to_explain_it() {
+    let (mut sequence, now) = seen(0..100);
+    let seen = [120, 121, 122].map(|sample| sequence.observe(sample, now));
+    assert_eq!(seen, [Observation::Stray; 3]);
+    let later = now.after(PERIOD * 20);
+    let seen = [123, 124, 125, 126, 127].map(|sample| sequence.observe(sample, later));
+    assert_eq!(seen[4], Observation::Reset(ResetKind::Jump));
+}
+
+#[test]
+fn what_was_put_aside_before_a_silence_is_of_the_session_after_it() {
+    let (mut sequence, now) = seen((0..100).chain(0..3));
+    let later = now.after(Duration::from_secs(1));
+    assert_eq!(sequence.observe(3, later), Observation::Reset(ResetKind::Restart));
+    assert!((0..4).all(|sample| sequence.remembers(sample)));
+    assert_eq!(sequence.tally(), tally(0, 0, 0, 1));
 }
 
 /// A sequence that has seen `samples`, each 4 ms after the one before, and when it saw the last.
@@ -256,30 +344,32 @@ fn a_straggler_that_is_newer_than_its_session_shows_what_is_missing_before_it() 
 
 #[test]
 fn what_is_far_from_the_session_before_is_none_of_it() {
-    let (sequence, now) = seen((0..1000).chain(0..3));
+    let (sequence, now) = seen((0..1000).chain(0..8));
     assert_eq!(sequence.clone().observe(999 + 16, now), Observation::Straggler);
+    assert_eq!(sequence.clone().observe(999 + 17, now), Observation::Stray);
     assert_eq!(
-        sequence.clone().observe(999 + 17, now),
+        eighth(sequence.clone(), 999 + 17, 1, now),
         Observation::Reset(ResetKind::Jump)
     );
     assert_eq!(sequence.clone().observe(1000 - 256, now), Observation::Duplicate);
+    assert_eq!(sequence.clone().observe(1000 - 257, now), Observation::Stray);
     assert_eq!(
-        sequence.clone().observe(1000 - 257, now),
+        eighth(sequence.clone(), 1000 - 265, 1, now),
         Observation::Reset(ResetKind::Jump)
     );
 }
 
 #[test]
 fn how_far_the_session_before_goes_on_is_counted_in_strides() {
-    let (sequence, now) = seen((0..1000).chain(0..3).map(|n| 4 * n));
+    let (sequence, now) = seen((0..1000).chain(0..8).map(|n| 4 * n));
     let on_by = |counts: u32| sequence.clone().observe(4 * 999 + counts, now);
     assert_eq!(on_by(4 * 17 - 1), Observation::Straggler);
-    assert_eq!(on_by(4 * 17), Observation::Reset(ResetKind::Jump));
+    assert_eq!(on_by(4 * 17), Observation::Stray);
 }
 
 #[test]
 fn stragglers_come_for_half_a_second() {
-    let (mut sequence, now) = seen((0..998).chain([999]).chain([0]));
+    let (mut sequence, now) = seen((0..998).chain([999]).chain(0..8));
     let at_last = now.after(SILENCE);
     assert_eq!(sequence.clone().observe(998, at_last), Observation::Straggler);
     let later = at_last.after(Duration::from_nanos(1));
@@ -288,10 +378,13 @@ fn stragglers_come_for_half_a_second() {
 
 #[test]
 fn stragglers_between_the_samples_of_a_session_never_end_it() {
-    let (mut sequence, now) = seen((0..1000).chain([0]));
+    let (mut sequence, now) = seen((0..1000).chain(0..8));
     for number in 1..6 {
         assert_eq!(sequence.observe(999 + number, now), Observation::Straggler);
-        assert_eq!(sequence.observe(number, now), Observation::New { missing_before: 0 });
+        assert_eq!(
+            sequence.observe(7 + number, now),
+            Observation::New { missing_before: 0 }
+        );
     }
     assert_eq!(sequence.tally(), tally(0, 0, 5, 1));
 }
@@ -300,7 +393,7 @@ fn stragglers_between_the_samples_of_a_session_never_end_it() {
 fn how_far_back_a_counter_begins_anew_is_told_by_the_time() {
     // 4 counts every 4 ms: one period later it can have come to 4, and 16 strides of 4 are spared.
     let (sequence, now) = seen((0..400).map(|n| 4 * n));
-    let back_to = |sample| sequence.clone().observe(sample, now.after(PERIOD));
+    let back_to = |sample| eighth(sequence.clone(), sample, 4, now.after(PERIOD));
     assert_eq!(back_to(4 + 64), Observation::Reset(ResetKind::Restart));
     assert_eq!(back_to(4 + 65), Observation::Reset(ResetKind::Rewind));
 }
@@ -311,7 +404,7 @@ fn how_far_a_gap_is_loss_is_told_by_the_time() {
     let (sequence, now) = seen((0..400).map(|n| 4 * n));
     let on_by = |strides: u32| sequence.clone().observe(4 * (399 + strides), now.after(PERIOD));
     assert_eq!(on_by(20), Observation::New { missing_before: 19 });
-    assert_eq!(on_by(21), Observation::Reset(ResetKind::Jump));
+    assert_eq!(on_by(21), Observation::Stray);
     let before_the_stride_is_known = seen([0]).0.observe(1_000_000, now);
     assert_eq!(before_the_stride_is_known, Observation::New { missing_before: 0 });
 }
@@ -320,8 +413,9 @@ fn how_far_a_gap_is_loss_is_told_by_the_time() {
 fn samples_are_late_as_far_back_as_they_are_remembered() {
     let (sequence, now) = seen(0..1000);
     assert_eq!(sequence.clone().observe(1000 - 256, now), Observation::Duplicate);
+    assert_eq!(sequence.clone().observe(1000 - 257, now), Observation::Stray);
     assert_eq!(
-        sequence.clone().observe(1000 - 257, now),
+        eighth(sequence, 1000 - 265, 1, now),
         Observation::Reset(ResetKind::Rewind)
     );
 }
@@ -333,9 +427,9 @@ fn samples_of_a_short_session_are_late_as_far_back_as_there_is_room_for() {
         sequence.observe(1009 * stride - behind, now)
     };
     assert_eq!(late_by(1, 256), Observation::Late);
-    assert_eq!(late_by(1, 257), Observation::Reset(ResetKind::Rewind));
+    assert_eq!(late_by(1, 257), Observation::Stray);
     assert_eq!(late_by(10, 320), Observation::Late);
-    assert_eq!(late_by(10, 321), Observation::Reset(ResetKind::Rewind));
+    assert_eq!(late_by(10, 321), Observation::Stray);
 }
 
 /// How many steps, given one after the other and again from the first, it takes until the stride is settled.

@@ -5,5 +5,6 @@ mod bounds;
 mod counting;
 mod description;
 mod order;
+mod sessions;
 mod split;
 mod stream;
