@@ -115,7 +115,7 @@ fn mxtp(decoded: &Bound<'_, PyDict>, data: &[u8]) -> PyResult<()> {
                 }
                 None => text.into_pyobject(py)?.into_any(),
             },
-            Value::Bytes(bytes) => hexadecimal(bytes).into_pyobject(py)?.into_any(),
+            Value::Bytes(_) => field.value.to_string().into_pyobject(py)?.into_any(),
         };
         put(decoded, &field.name, value)?;
     }
@@ -155,7 +155,7 @@ fn natnet(decoded: &Bound<'_, PyDict>, data: &[u8], version: Version) -> PyResul
             Value::Float(number) => number.into_pyobject(py)?.into_any(),
             Value::Double(number) => number.into_pyobject(py)?.into_any(),
             Value::Text(text) => text.into_pyobject(py)?.into_any(),
-            Value::Bytes(bytes) => hexadecimal(bytes).into_pyobject(py)?.into_any(),
+            Value::Bytes(_) => field.value.to_string().into_pyobject(py)?.into_any(),
         };
         lists.put(decoded, &field.name, value)?;
         if field.name == "message" {
@@ -189,10 +189,6 @@ fn help_with(data: &[u8], version: Version) -> String {
         _ => return "posewire explain shows the bytes as far as they make sense".to_owned(),
     };
     format!("{whose} of {version}, or cut off")
-}
-
-fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 fn refused(protocol: &str, error: &dyn std::fmt::Display, help: &str) -> PyErr {

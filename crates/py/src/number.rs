@@ -1,8 +1,8 @@
-//! Whole numbers as arguments.
+//! Numbers and names as arguments.
 
 use crate::error::exception;
 use pyo3::Borrowed;
-use pyo3::exceptions::PyOverflowError;
+use pyo3::exceptions::{PyOverflowError, PyTypeError};
 use pyo3::prelude::*;
 use std::fmt::{self, Display};
 use std::ops::RangeInclusive;
@@ -45,6 +45,28 @@ impl<'py> FromPyObject<'_, 'py> for Whole {
             Err(error) if error.is_instance_of::<PyOverflowError>(given.py()) => Ok(Self(None)),
             Err(error) => Err(error),
         }
+    }
+}
+
+/// A number as people read it: with an exponent where it is very large or very small.
+pub(crate) fn shown(number: f64) -> String {
+    match number.abs() {
+        size if size.is_finite() && size != 0.0 && !(1e-5..1e16).contains(&size) => format!("{number:e}"),
+        _ => number.to_string(),
+    }
+}
+
+/// A list of names that Python gave. A lone text is none, though it is a sequence of texts to Python.
+pub(crate) struct Names(pub(crate) Vec<String>);
+
+impl<'py> FromPyObject<'_, 'py> for Names {
+    type Error = PyErr;
+
+    fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        given.extract().map(Self).map_err(|_| {
+            let found = given.repr().map(|repr| repr.to_string()).unwrap_or_default();
+            PyTypeError::new_err(format!("expected a list of names, found {found}"))
+        })
     }
 }
 

@@ -10,9 +10,10 @@ use posewire::recording::check_ending;
 use posewire::sink::{RecordOptions, RecordProgress, RecordSink};
 use posewire::source::PlaybackOptions;
 use posewire::stop::Stop;
-use posewire::{Session, Source};
+use posewire::{Item, Session, Sink, Source, SourceId, Wants};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
+use std::collections::VecDeque;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -31,8 +32,40 @@ pub(crate) struct Recorder {
 /// What runs.
 struct Recording {
     progress: Arc<Mutex<RecordProgress>>,
+    told: Told,
     stop: Stop,
     session: Mutex<Option<Session>>,
+}
+
+/// What the sources had to say. Clones share it.
+#[derive(Clone, Default)]
+struct Told(Arc<Mutex<VecDeque<String>>>);
+
+impl Told {
+    fn all(&self) -> Vec<String> {
+        let notices = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        notices.iter().cloned().collect()
+    }
+}
+
+impl Sink for Told {
+    fn wants(&self) -> Wants {
+        Wants {
+            frames: false,
+            datagrams: false,
+        }
+    }
+
+    fn accept(&mut self, _: SourceId, item: &Item) -> posewire::Result<()> {
+        if let Item::Notice(notice) = item {
+            let mut notices = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            if notices.len() == MOST_NOTICES {
+                notices.pop_front();
+            }
+            notices.push_back(notice.to_string());
+        }
+        Ok(())
+    }
 }
 
 impl Recording {
@@ -88,6 +121,18 @@ impl Recorder {
     #[getter]
     fn urls(&self) -> Vec<String> {
         self.urls.clone()
+    }
+
+    /// Whether its file is complete and nothing is recorded any more.
+    #[getter]
+    fn closed(&self) -> bool {
+        self.recording.if_here().is_none_or(Recording::has_ended)
+    }
+
+    /// What the sources had to say: who connected, what is lost. The newest 100, the newest last.
+    #[getter]
+    fn notices(&self) -> PyResult<Vec<String>> {
+        Ok(self.recording.here()?.told.all())
     }
 
     /// How far it has come: a dict of file, files, bytes, datagrams, frames, lost (on this machine) and failure.
@@ -166,9 +211,12 @@ fn start(endpoints: &[Endpoint], path: &Path, options: RecordOptions) -> posewir
     let endpoints: Vec<_> = sources.iter().map(|source| source.endpoint().clone()).collect();
     let stop = Stop::new();
     let sink = RecordSink::create(path, &endpoints, options, stop.clone())?;
+    let (progress, told) = (sink.progress(), Told::default());
+    let sinks: Vec<Box<dyn Sink>> = vec![Box::new(sink), Box::new(told.clone())];
     let recording = Recording {
-        progress: sink.progress(),
-        session: Mutex::new(Some(Session::start(sources, vec![Box::new(sink)], stop.clone()))),
+        progress,
+        told,
+        session: Mutex::new(Some(Session::start(sources, sinks, stop.clone()))),
         stop,
     };
     Ok(Recorder {
@@ -176,3 +224,5 @@ fn start(endpoints: &[Endpoint], path: &Path, options: RecordOptions) -> posewir
         recording: Opened::new("the recorder", recording),
     })
 }
+
+const MOST_NOTICES: usize = 100;

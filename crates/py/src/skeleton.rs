@@ -2,7 +2,7 @@
 
 use crate::array;
 use crate::error::usage;
-use crate::number::Whole;
+use crate::number::{Names, Whole};
 use numpy::{AllowTypeChange, PyArrayLike2};
 use posewire_motion::standard::MAX_PROPS;
 use posewire_motion::{DVec3, Segment, SegmentKind, Subject};
@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// Skeleton(segments, parents=None, origins=None) is one of other segments, which `posewire.streamer` sends: `segments` are their
 /// names, `parents` the place of the one that each hangs on, which stands before it, or None; `origins` (segments, 3) are
 /// their places in the rest pose, metres, NaN where it is not known. NatNet carries all of it; MXTP carries such segments
-/// without their names and parents, by number.
+/// under their names, without parents.
 ///
 /// Skeletons are equal when all that they hold is, and are pickled where they have been made in Python.
 #[pyclass(frozen, eq, hash, weakref, module = "posewire")]
@@ -52,11 +52,8 @@ impl From<posewire_motion::Skeleton> for Skeleton {
 impl Skeleton {
     #[new]
     #[pyo3(signature = (segments, parents = None, origins = None))]
-    fn new(
-        segments: Vec<String>,
-        parents: Option<Vec<Option<Whole>>>,
-        origins: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Self> {
+    fn new(segments: Names, parents: Option<Vec<Option<Whole>>>, origins: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        let Names(segments) = segments;
         check_names(&segments)?;
         let parents = parents.map_or_else(|| Ok(vec![None; segments.len()]), |given| parents_of(&segments, &given))?;
         let origins = origins.map_or_else(|| Ok(vec![None; segments.len()]), |given| origins_of(&segments, given))?;
@@ -74,10 +71,10 @@ impl Skeleton {
         signature = (props = Whole::of(0), fingers = false, sensors = None),
         text_signature = "(props=0, fingers=False, sensors=None)"
     )]
-    fn standard(props: Whole, fingers: bool, sensors: Option<Vec<String>>) -> PyResult<Self> {
+    fn standard(props: Whole, fingers: bool, sensors: Option<Names>) -> PyResult<Self> {
         let props = props.within("props", 0..=MAX_PROPS)?;
         let mut skeleton = posewire_motion::Skeleton::standard(props, fingers);
-        if let Some(sensors) = sensors {
+        if let Some(Names(sensors)) = sensors {
             skeleton.sensors = worn(&skeleton, &sensors)?;
         }
         Ok(skeleton.into())

@@ -3,7 +3,7 @@
 use crate::array;
 use crate::arrow::{self, Table};
 use crate::frame::Frame;
-use crate::number::Whole;
+use crate::number::{Names, Whole};
 use crate::read::FilePath;
 use crate::section::{self, missing};
 use crate::skeleton::Skeleton;
@@ -265,8 +265,8 @@ impl Take {
 
     /// A take that also has those of the sections that this one lacks and its poses tell; all of them without names.
     #[pyo3(signature = (*sections))]
-    fn complete(&self, py: Python<'_>, sections: Vec<String>) -> PyResult<Self> {
-        let sections = section::named(&sections)?;
+    fn complete(&self, py: Python<'_>, sections: Names) -> PyResult<Self> {
+        let sections = section::named(&sections.0)?;
         let completed = py.detach(|| {
             let mut recording = Recording::clone(&self.recording);
             recording.complete(if sections.is_empty() { Section::ALL } else { &sections });
@@ -284,7 +284,8 @@ impl Take {
     /// `sections` are names of sections; all of them if left out, and then `event`, with the names of those set at a sample,
     /// and contact_LeftFoot_Heel and the like too. What no sample has is no column.
     #[pyo3(signature = (sections = None))]
-    fn to_arrow(&self, py: Python<'_>, sections: Option<Vec<String>>) -> PyResult<Py<Table>> {
+    fn to_arrow(&self, py: Python<'_>, sections: Option<Names>) -> PyResult<Py<Table>> {
+        let sections = sections.map(|Names(sections)| sections);
         arrow::table(py, self, sections.as_deref())
     }
 

@@ -1,7 +1,7 @@
 //! Takes to files.
 
 use crate::error::{raised, usage};
-use crate::number::Whole;
+use crate::number::{Names, Whole};
 use crate::section::named;
 use crate::take::Take;
 use crate::wait::working;
@@ -178,7 +178,7 @@ impl Asked {
             "rate" => self.rate = Some(value.extract()?),
             "axes" => options.axes = Some(axes_named(value.extract()?)?),
             "unit" => options.unit = Some(unit_named(value.extract()?)?),
-            "sections" => options.sections = Some(named(&value.extract::<Vec<String>>()?)?),
+            "sections" => options.sections = Some(named(&value.extract::<Names>()?.0)?),
             "mvnx_version" => options.mvnx.version = Some(version(value.extract::<Whole>()?)?),
             "csv_sheets" => options.csv.file_per_section = value.extract()?,
             "bvh_translations" => options.bvh.translations = value.extract()?,

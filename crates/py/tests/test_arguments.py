@@ -3,6 +3,7 @@
 import math
 import pathlib
 
+import numpy as np
 import pytest
 
 import posewire
@@ -94,3 +95,21 @@ def test_where_nothing_can_be_recorded_is_said(tmp_path):
         posewire.Recorder(tmp_path / "take.mcap", path=tmp_path / "other.mcap")
     with pytest.raises(TypeError, match="path"):
         posewire.Recorder(LIVE, str(tmp_path / "take.mcap"))
+
+
+def test_a_lone_name_is_no_list_of_names(walk, tmp_path):
+    skeleton = posewire.Skeleton.standard()
+    for ask in (
+        lambda: posewire.Skeleton("abc"),
+        lambda: posewire.Skeleton.standard(sensors="abc"),
+        lambda: walk.to_arrow("abc"),
+        lambda: walk.write(tmp_path / "x.csv", sections="abc"),
+    ):
+        with pytest.raises(TypeError, match="expected a list of names, found 'abc'"):
+            ask()
+    with pytest.raises(TypeError, match=r"expected a list of names, found \(\['velocity'\],\)"):
+        walk.complete(["velocity"])
+    with posewire.streamer("mxtp://127.0.0.1:9", skeleton=skeleton) as streamer:
+        with pytest.raises(posewire.UsageError) as raised:
+            streamer.send(np.full((len(skeleton), 3), 1e300), np.tile([1.0, 0, 0, 0], (len(skeleton), 1)))
+    assert "found [1e300, 1e300, 1e300]" in raised.value.message

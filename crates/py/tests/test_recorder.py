@@ -6,6 +6,7 @@ import time
 
 import numpy as np
 import pytest
+from conftest import until
 
 import posewire
 
@@ -73,3 +74,11 @@ def test_a_file_that_is_there_is_kept(tmp_path):
         with pytest.raises(posewire.WriteError, match="take.mcap"):
             posewire.Recorder("mxtp://127.0.0.1:0", path=spelled)
     assert path.read_bytes() == b"precious"
+
+
+def test_a_recorder_says_whether_it_is_closed_and_what_its_sources_said(tmp_path):
+    with posewire.Recorder("mxtp+tcp://127.0.0.1:0", path=os.fsencode(tmp_path / "take.mcap")) as recorder:
+        assert not recorder.closed
+        with posewire.streamer(recorder.urls[0].split("?")[0], skeleton=posewire.Skeleton.standard()):
+            until(lambda: any("connected" in notice for notice in recorder.notices))
+    assert recorder.closed and recorder.notices

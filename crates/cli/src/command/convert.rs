@@ -89,7 +89,7 @@ fn convert(plan: &Plan, job: &Job, stops: &Stops) -> anyhow::Result<Done> {
             let bar = Bar::start("reading", path.display(), &stops.work);
             let recording = read(path, plan.reading, bar.progress());
             bar.end();
-            (vec![write(plan, job, None, recording?, stops, began)], 0)
+            (vec![write(plan, job, None, &recording?, stops, began)], 0)
         }
         Source::Walk(walk) => {
             let takes = capture::walk(walk, plan.duration, stops)?;
@@ -132,7 +132,7 @@ fn write_all(
     let several = recordings.len() > 1;
     let reports = recordings.into_iter().zip(names).map(|(recording, name)| {
         let name = several.then_some(name.as_str());
-        write(plan, job, name, recording, stops, began)
+        write(plan, job, name, &recording, stops, began)
     });
     reports.collect()
 }
@@ -142,13 +142,13 @@ fn write(
     plan: &Plan,
     job: &Job,
     name: Option<&str>,
-    recording: Recording,
+    recording: &Recording,
     stops: &Stops,
     began: Instant,
 ) -> anyhow::Result<Report> {
     let (mut writing, mut lacking) = (plan.writing.clone(), Vec::new());
     let (recording, computed) = loop {
-        match plan.edit(job).of(Cow::Borrowed(&recording), job.format, &writing) {
+        match plan.edit(job).of(Cow::Borrowed(recording), job.format, &writing) {
             // It could not be had again.
             Err(posewire::Error::NoSection { wanted, .. }) if job.is_stream() && leave_out(&mut writing, wanted) => {
                 lacking.push(wanted);

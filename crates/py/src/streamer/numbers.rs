@@ -1,6 +1,7 @@
 //! What Python gives as numbers, checked entry by entry.
 
 use crate::error::usage;
+use crate::number::shown;
 use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use posewire_motion::{Section, Skeleton};
 use pyo3::exceptions::PyException;
@@ -53,7 +54,10 @@ fn normalize(skeleton: &Skeleton, section: Section, place: usize, quaternion: &m
         _ => {
             let (what, found) = (of_whom(skeleton, section, place), listed(quaternion));
             return Err(usage(
-                format!("expected a quaternion of length 1 as {what}, found {found} of length {length:.4}"),
+                format!(
+                    "expected a quaternion of length 1 as {what}, found {found} of length {}",
+                    in_short(length)
+                ),
                 "divide it by its length, w first; what is not tracked is NaN",
             ));
         }
@@ -70,8 +74,16 @@ fn of_whom(skeleton: &Skeleton, section: Section, place: usize) -> String {
     }
 }
 
+fn in_short(length: f64) -> String {
+    if length < 1e6 {
+        format!("{length:.4}")
+    } else {
+        shown(length)
+    }
+}
+
 fn listed(row: &[f64]) -> String {
-    let numbers: Vec<_> = row.iter().map(ToString::to_string).collect();
+    let numbers: Vec<_> = row.iter().copied().map(shown).collect();
     format!("[{}]", numbers.join(", ")).replace("NaN", "nan")
 }
 

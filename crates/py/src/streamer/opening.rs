@@ -6,6 +6,7 @@ use super::numbering::Numbering;
 use super::told::{self, Told};
 use super::{Running, Streamer};
 use crate::error::{raised, usage};
+use crate::number::shown;
 use crate::process::Opened;
 use crate::skeleton::Skeleton;
 use posewire::endpoint::{Endpoint, NatNetAddress};
@@ -71,7 +72,10 @@ fn check_rate(rate: f64) -> PyResult<()> {
     }
     let (first, last) = (RATES.start(), RATES.end());
     Err(usage(
-        format!("expected from {first} to {last} samples a second as the rate, found {rate}"),
+        format!(
+            "expected from {first} to {last} samples a second as the rate, found {}",
+            shown(rate)
+        ),
         "it makes the clock of samples that come without time=; the program sets the pace",
     ))
 }
