@@ -1,5 +1,7 @@
 //! One character: the samples that are open, and what was counted.
 
+mod ahead;
+
 use super::counters::{Counters, SampleCounts, Stream};
 use super::events::Events;
 use super::sample::{OpenSample, Stored, added, segments};
