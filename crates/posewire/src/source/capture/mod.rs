@@ -201,7 +201,7 @@ fn pass(
     let mut at = time.start;
     while time.end.saturating_sub(at) > step {
         at += step;
-        if !pacer.wait(at) || !decoder.tick(step) {
+        if !pacer.wait(at) || !decoder.tick(step, pacer.deadline(at)) {
             return false;
         }
     }
