@@ -97,7 +97,7 @@ impl Receiver {
 
     fn poll(&mut self) {
         while let Some(event) = self.assembler.poll() {
-            if let Event::Frame(frame) = &event {
+            if let Event::Frame(frame) | Event::Ahead(frame) = &event {
                 assert_eq!(frame.check(), Ok(()));
             }
             self.events.push(event);
