@@ -6,8 +6,10 @@ import posewire
 
 
 def of_samples(walk, numbers, names=("Ada",), timecodes=False):
-    """What is sent of samples with these numbers: the descriptions, and for each number its datagrams, of type 02 and, with
-    timecodes, 25."""
+    """What is sent of samples with these numbers: the descriptions, and for each number its datagrams.
+
+    These are of type 02, and with timecodes one of type 25 for each.
+    """
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver:
         receiver.bind(("127.0.0.1", 0))
         receiver.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 20)
