@@ -139,7 +139,7 @@ impl Sink for Teller {
     fn wants(&self) -> Wants {
         Wants {
             frames: false,
-            datagrams: false,
+            ..Wants::default()
         }
     }
 

@@ -73,12 +73,15 @@ pub struct AssemblerOptions {
     /// How long a sample that a newer one waits for waits for what it lacks, from its first datagram on; 100 ms unless
     /// set. The newest sample, which delays nothing, waits ten times as long.
     pub close_after: Duration,
+    /// Whether samples that are complete and wait for an older one are also given at once, as [`Event::Ahead`].
+    pub ahead: bool,
 }
 
 impl Default for AssemblerOptions {
     fn default() -> Self {
         Self {
             close_after: Duration::from_millis(100),
+            ahead: false,
         }
     }
 }
@@ -89,6 +92,9 @@ impl Default for AssemblerOptions {
 pub enum Event {
     /// A sample is done. Its lists have the lengths that its subject's skeleton asks for.
     Frame(Arc<Frame>),
+    /// A sample is complete and the newest of its character, while an older one is still waited for: only with
+    /// [`AssemblerOptions::ahead`]. It comes in its turn too, as the same `Frame` unless something of it came in between.
+    Ahead(Arc<Frame>),
     /// A new character, or a new description of a known one. The frames that follow refer to it.
     Subject(Arc<Subject>),
     /// A whole message has come, duplicates left out: what rates and intervals are measured by.
@@ -145,6 +151,9 @@ impl Assembler {
             Ok(datagram) => {
                 if let Some(place) = self.admit(datagram.header.character, now) {
                     self.characters[place].handle(now, bytes, &datagram, &mut self.events);
+                    if self.options.ahead {
+                        self.characters[place].give_ahead(&mut self.events);
+                    }
                 }
             }
             Err(error) => self.reject(now, bytes, error),
@@ -155,6 +164,9 @@ impl Assembler {
     pub fn handle_timeout(&mut self, now: Stamp) {
         for character in &mut self.characters {
             character.handle_timeout(now, self.options.close_after, &mut self.events);
+            if self.options.ahead {
+                character.give_ahead(&mut self.events);
+            }
         }
     }
 

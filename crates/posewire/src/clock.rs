@@ -69,11 +69,19 @@ pub(crate) fn now() -> Stamp {
 }
 
 /// A kernel stamp, as `SO_TIMESTAMPNS` gives it.
+/// The instant that UTC stamps of what has happened stand for. One in the future, or longer ago than an hour, is of a clock that
+/// was set meanwhile: it is now, or an hour ago.
+pub(crate) fn instant_of(utc: Stamp) -> Instant {
+    let at = Instant::now();
+    at.checked_sub(now().since(utc).min(LONGEST_AGO)).unwrap_or(at)
+}
+
 #[cfg(target_os = "linux")]
 pub(crate) fn stamp_of_kernel(time: nix::sys::time::TimeSpec) -> Stamp {
     Stamp::from_parts(time.tv_sec(), time.tv_nsec())
 }
 
+const LONGEST_AGO: Duration = Duration::from_hours(1);
 const SHORTEST_LIMIT: Duration = Duration::from_secs(1);
 
 #[cfg(test)]

@@ -1,6 +1,10 @@
 //! What travels from a source to its sinks.
 
+mod arrival;
+mod foremost;
 mod weight;
+
+pub use foremost::Foremost;
 
 use crate::stats::Statistics;
 use crate::{Datagram, Error};
@@ -27,7 +31,15 @@ pub enum Item {
     Frame {
         /// The sample.
         frame: Arc<Frame>,
-        /// When it was to leave the source, for a source that is paced.
+        /// When it was to leave the source, for a source that is paced; `None` for one that is live.
+        due: Option<Instant>,
+    },
+    /// A sample that is complete, ahead of its turn: an older one of its subject, of which something seems to be lost, is still
+    /// waited for. It comes as a `Frame` too; only for sinks that [want](crate::Wants::ahead) the newest at once.
+    Ahead {
+        /// The sample.
+        frame: Arc<Frame>,
+        /// As that of a `Frame`.
         due: Option<Instant>,
     },
     /// How the stream is doing: once a second from a live source, and a last time when it ends.

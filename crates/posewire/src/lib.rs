@@ -56,7 +56,7 @@ pub mod stop;
 
 pub use datagram::{Datagram, Wire};
 pub use error::{Error, Result};
-pub use item::{Item, Notice, SourceId};
+pub use item::{Foremost, Item, Notice, SourceId};
 pub use session::{Feed, Outcome, Session};
 pub use sink::{Sink, Wants};
 pub use source::Source;

@@ -246,6 +246,11 @@ impl Outlet {
         }
     }
 
+    /// Whether any sink wants samples ahead of their turn.
+    pub(crate) fn wants_ahead(&self) -> bool {
+        self.feeders.iter().any(|feeder| feeder.wants.ahead)
+    }
+
     /// Hands the batch to every sink; `false` when no sink is left.
     ///
     /// A live source does not wait: what a full lossless queue cannot take is dropped and counted there.
@@ -381,6 +386,26 @@ mod tests {
         let raw = format!("{:?}", Item::Datagram(Arc::new(datagram())));
         assert_eq!(drained(&recorded), [raw, format!("{:?}", notice(0))]);
         assert_eq!(drained(&viewed), [format!("{:?}", notice(0))]);
+    }
+
+    #[test]
+    fn samples_ahead_of_their_turn_reach_only_the_sinks_that_want_them() {
+        let wants = Wants {
+            ahead: true,
+            ..Wants::default()
+        };
+        let subject = posewire_motion::Subject::new("Ada", posewire_motion::Skeleton::default());
+        let frame = Arc::new(posewire_motion::Frame::new(Arc::new(subject)));
+        let ahead = Item::Ahead { frame, due: None };
+        let (viewer, viewed) = feeder(8, wants);
+        let (recorder, recorded) = feeder(8, Wants::ALL);
+        let mut outlet = Outlet::new(SourceId(0), true, vec![recorder, viewer]);
+        assert!(outlet.wants_ahead());
+        outlet.push(ahead.clone());
+        outlet.flush();
+        drop(outlet);
+        assert_eq!(drained(&viewed), [format!("{ahead:?}")]);
+        assert!(drained(&recorded).is_empty());
     }
 
     #[test]

@@ -140,7 +140,7 @@ impl Frame {
         self.frame.late
     }
 
-    /// For how many seconds it has been here by now; None for one that did not come live.
+    /// Seconds since its first datagram arrived at this machine, or since it was played; None for one that did not come live.
     #[getter]
     fn age(&self) -> Option<f64> {
         self.arrival.map(|arrival| arrival.at.elapsed().as_secs_f64())

@@ -181,7 +181,7 @@ impl Sink for Heard {
     fn wants(&self) -> Wants {
         Wants {
             frames: false,
-            datagrams: false,
+            ..Wants::default()
         }
     }
 

@@ -53,6 +53,7 @@ impl Sink for Told {
         Wants {
             frames: false,
             datagrams: false,
+            ahead: false,
         }
     }
 

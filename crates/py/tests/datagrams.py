@@ -5,16 +5,22 @@ import socket
 import posewire
 
 
-def of_samples(walk, numbers, names=("Ada",)):
-    """What is sent of samples with these numbers: the descriptions, and for each number its datagrams."""
+def of_samples(walk, numbers, names=("Ada",), timecodes=False):
+    """What is sent of samples with these numbers: the descriptions, and for each number its datagrams.
+
+    These are of type 02, and with timecodes one of type 25 for each.
+    """
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver:
         receiver.bind(("127.0.0.1", 0))
         receiver.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 20)
         receiver.settimeout(0)
         with posewire.streamer(f"mxtp://127.0.0.1:{receiver.getsockname()[1]}", names=list(names)) as streamer:
             for place, number in enumerate(numbers):
+                timecode = {"timecode": place / 60} if timecodes else {}
                 for subject in range(len(names)):
-                    streamer.send(walk.position[place], walk.orientation[place], subject=subject, sample=number)
+                    streamer.send(
+                        walk.position[place], walk.orientation[place], subject=subject, sample=number, **timecode
+                    )
         received = list(_all(receiver))
     descriptions = [datagram for datagram in received if datagram[4:6] in (b"12", b"13")]
     samples = {number: [] for number in numbers}

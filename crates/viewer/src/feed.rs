@@ -8,7 +8,7 @@ use crate::series::{Plot, Wish};
 use crate::wire::{self, State};
 use posewire::endpoint::Endpoint;
 use posewire::stats::Statistics;
-use posewire::{Item, SourceId};
+use posewire::{Foremost, Item, SourceId};
 use posewire_motion::{Frame, Subject};
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
@@ -30,8 +30,11 @@ struct Newest {
     numbers: HashMap<(SourceId, u32), u32>,
     /// Grows with every change of a subject.
     version: u64,
-    /// Grows with every frame.
+    /// Grows with every frame that is shown.
+    shown: u64,
+    /// Frames in their turn.
     frames: u64,
+    foremost: Foremost,
     statistics: Vec<Option<Arc<Statistics>>>,
     notices: VecDeque<String>,
     /// How many notices there have been.
@@ -93,7 +96,7 @@ impl Feed {
             Item::Subject(subject) => {
                 newest.subject(source, subject);
             }
-            Item::Frame { frame, .. } => newest.frame(source, frame, Instant::now()),
+            Item::Frame { frame, .. } | Item::Ahead { frame, .. } => newest.frame(source, item, frame),
             Item::Statistics(statistics) => {
                 if let Some(slot) = newest.statistics.get_mut(usize::from(source.0)) {
                     *slot = Some(Arc::clone(statistics));
@@ -231,16 +234,22 @@ impl Newest {
         }
     }
 
-    fn frame(&mut self, source: SourceId, frame: &Arc<Frame>, now: Instant) {
+    fn frame(&mut self, source: SourceId, item: &Item, frame: &Arc<Frame>) {
         let Some(id) = self.subject(source, &frame.subject) else {
             return;
         };
-        self.frames += 1;
         let live = &mut self.subjects[id as usize];
         // One that a newer had overtaken would show the past; plots have every sample.
-        if !frame.late && live.take(frame, self.frames, now) {
-            self.version += 1;
+        if self.foremost.newest(source, item).is_some() {
+            self.shown += 1;
+            if live.take(frame, self.shown, item.arrived()) {
+                self.version += 1;
+            }
         }
+        if matches!(item, Item::Ahead { .. }) {
+            return;
+        }
+        self.frames += 1;
         let rate = frame.subject.rate.or_else(|| live.rate.rate());
         for plot in self.plots.iter().filter_map(Weak::upgrade) {
             lock(&plot).take(id, frame, rate);
@@ -273,12 +282,12 @@ impl Live {
     }
 
     /// Takes a frame that has arrived; whether it has a section that none before had.
-    fn take(&mut self, frame: &Arc<Frame>, number: u64, now: Instant) -> bool {
+    fn take(&mut self, frame: &Arc<Frame>, number: u64, arrived: Instant) -> bool {
         if self.number > 0 {
-            let elapsed = now.saturating_duration_since(self.arrived).as_secs_f64().min(1.0);
+            let elapsed = arrived.saturating_duration_since(self.arrived).as_secs_f64().min(1.0);
             self.period += (elapsed - self.period) * SMOOTHING;
         }
-        (self.number, self.arrived) = (number, now);
+        (self.number, self.arrived) = (number, arrived);
         self.record = None;
         self.rate.take(frame);
         let before = self.present;

@@ -2,7 +2,7 @@
 
 use crate::Feed;
 use posewire::queue::Policy;
-use posewire::{Item, Result, Sink, SourceId};
+use posewire::{Item, Result, Sink, SourceId, Wants};
 
 /// A sink that puts what comes into a [`Feed`].
 ///
@@ -22,6 +22,13 @@ impl ViewerSink {
 impl Sink for ViewerSink {
     fn queue(&self) -> (Policy, usize) {
         (Policy::Newest, QUEUED)
+    }
+
+    fn wants(&self) -> Wants {
+        Wants {
+            ahead: true,
+            ..Wants::default()
+        }
     }
 
     fn accept(&mut self, source: SourceId, item: &Item) -> Result<()> {

@@ -1,5 +1,6 @@
 //! One character: the samples that are open, and what was counted.
 
+mod ahead;
 mod sessions;
 
 use super::aside::Aside;

@@ -22,6 +22,8 @@ pub(super) struct OpenSample {
     pub(super) overtaken: bool,
     /// Whether a header has said how many segments there are.
     pub(super) layout_known: bool,
+    /// The types that were whole when its frame was given ahead of older ones.
+    given: MessageTypes,
     time: Duration,
     frame: Arc<Frame>,
     filler: Filler,
@@ -51,6 +53,7 @@ impl OpenSample {
             whole: MessageTypes::NONE,
             overtaken: false,
             layout_known: false,
+            given: MessageTypes::NONE,
             time: Duration::from_millis(header.time_ms.into()),
             frame,
             filler: Filler::new(),
@@ -112,10 +115,29 @@ impl OpenSample {
         if self.overtaken {
             Arc::make_mut(&mut self.frame).late = true;
         }
+        self.adopt(subject);
+        self.frame
+    }
+
+    /// Whether its frame was given ahead of older ones.
+    pub(super) const fn is_given(&self) -> bool {
+        !self.given.is_empty()
+    }
+
+    /// The frame as it is, ahead of older ones; `None` when it was given with all that is whole now.
+    pub(super) fn give(&mut self, subject: &Arc<Subject>) -> Option<Arc<Frame>> {
+        if self.overtaken || self.given == self.whole {
+            return None;
+        }
+        self.given = self.whole;
+        self.adopt(subject);
+        Some(self.frame.clone())
+    }
+
+    fn adopt(&mut self, subject: &Arc<Subject>) {
         if !Arc::ptr_eq(&self.frame.subject, subject) {
             Arc::make_mut(&mut self.frame).subject = subject.clone();
         }
-        self.frame
     }
 
     /// Bytes of parts.

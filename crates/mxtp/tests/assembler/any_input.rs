@@ -2,6 +2,7 @@
 
 use crate::stream::{Receiver, Sender, character, rev_j};
 use posewire_motion::Skeleton;
+use posewire_mxtp::{AssemblerOptions, Event};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 use std::time::Duration;
@@ -76,6 +77,23 @@ impl Disturbed {
 
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn samples_that_are_given_ahead_change_nothing_of_the_rest(arrivals in prop::collection::vec(disturbed(), 0..200)) {
+        let options = AssemblerOptions { ahead: true, ..AssemblerOptions::default() };
+        let (from, mut plain, mut ahead) = (datagrams(), Receiver::new(), Receiver::with(options));
+        for arrival in arrivals {
+            for receiver in [&mut plain, &mut ahead] {
+                receiver.feed([&arrival.bytes(&from)[..]]);
+                receiver.wait(Duration::from_millis(arrival.wait_ms));
+            }
+        }
+        plain.finish();
+        ahead.finish();
+        ahead.events.retain(|event| !matches!(event, Event::Ahead(_)));
+        // By their text: a number that is none equals no other.
+        prop_assert_eq!(format!("{:?}", plain.events), format!("{:?}", ahead.events));
+    }
 
     #[test]
     fn every_frame_fits_its_subject_and_memory_is_bounded(arrivals in prop::collection::vec(disturbed(), 0..200)) {

@@ -1,5 +1,6 @@
 //! What an assembler makes of datagrams, however they arrive.
 
+mod ahead;
 mod any_input;
 mod bounds;
 mod counting;

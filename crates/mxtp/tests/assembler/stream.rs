@@ -2,7 +2,7 @@
 
 use posewire_motion::{DQuat, DVec3, Frame, Skeleton, Stamp, Subject};
 use posewire_mxtp::motion::{Datagrams, Encoder, EncoderOptions};
-use posewire_mxtp::{Assembler, Counters, Event, MessageType, Revision, SampleCounts};
+use posewire_mxtp::{Assembler, AssemblerOptions, Counters, Event, MessageType, Revision, SampleCounts};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -18,8 +18,12 @@ pub(crate) struct Receiver {
 
 impl Receiver {
     pub(crate) fn new() -> Self {
+        Self::with(AssemblerOptions::default())
+    }
+
+    pub(crate) fn with(options: AssemblerOptions) -> Self {
         Self {
-            assembler: Assembler::new(),
+            assembler: Assembler::with_options(options),
             now: Stamp(1_700_000_000_000_000_000),
             events: Vec::new(),
         }
@@ -93,7 +97,7 @@ impl Receiver {
 
     fn poll(&mut self) {
         while let Some(event) = self.assembler.poll() {
-            if let Event::Frame(frame) = &event {
+            if let Event::Frame(frame) | Event::Ahead(frame) = &event {
                 assert_eq!(frame.check(), Ok(()));
             }
             self.events.push(event);

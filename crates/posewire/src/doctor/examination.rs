@@ -85,7 +85,7 @@ impl Examination {
             Item::Frame { frame, .. } => self.figures.sample(frame),
             Item::Statistics(statistics) => self.statistics = Some(Arc::clone(statistics)),
             Item::Notice(Notice::Connected { .. }) => self.connections += 1,
-            Item::Notice(_) | Item::Subject(_) => {}
+            Item::Notice(_) | Item::Subject(_) | Item::Ahead { .. } => {}
         }
     }
 

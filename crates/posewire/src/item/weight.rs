@@ -11,7 +11,7 @@ impl Item {
         let content = match self {
             Self::Datagram(datagram) => datagram.bytes.len() + size_of_val(&**datagram),
             Self::Subject(subject) => of_subject(subject),
-            Self::Frame { frame, .. } => of_frame(frame),
+            Self::Frame { frame, .. } | Self::Ahead { frame, .. } => of_frame(frame),
             Self::Statistics(statistics) => size_of_val(&**statistics) + statistics.subjects.len() * OF_COUNTS,
             Self::Notice(_) => OF_TEXT,
         };

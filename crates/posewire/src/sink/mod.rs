@@ -80,13 +80,17 @@ pub struct Wants {
     pub frames: bool,
     /// Datagrams as they arrived, each before what was read from it.
     pub datagrams: bool,
+    /// Complete samples also ahead of their turn, as [`Item::Ahead`]: for who shows or uses the newest. Which of all samples
+    /// are the newest then, [`Foremost`](crate::Foremost) tells.
+    pub ahead: bool,
 }
 
 impl Wants {
-    /// Everything there is.
+    /// Everything there is, once.
     pub const ALL: Self = Self {
         frames: true,
         datagrams: true,
+        ahead: false,
     };
 
     /// Whether `item` is wanted.
@@ -94,17 +98,19 @@ impl Wants {
         match item {
             Item::Datagram(_) => self.datagrams,
             Item::Subject(_) | Item::Frame { .. } => self.frames,
+            Item::Ahead { .. } => self.ahead,
             Item::Statistics(_) | Item::Notice(_) => true,
         }
     }
 }
 
 impl Default for Wants {
-    /// Frames, and no datagrams.
+    /// Frames, each in its turn, and no datagrams.
     fn default() -> Self {
         Self {
             frames: true,
             datagrams: false,
+            ahead: false,
         }
     }
 }

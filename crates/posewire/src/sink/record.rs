@@ -242,7 +242,7 @@ impl RecordSink {
                 }
                 return Ok(());
             }
-            Item::Notice(_) => return Ok(()),
+            Item::Notice(_) | Item::Ahead { .. } => return Ok(()),
         }
         self.due.get_or_insert_with(|| Instant::now() + Self::FLUSH_EVERY);
         Ok(())

@@ -268,6 +268,32 @@ fn all_sources_are_played_together_with_the_time_between_them() {
 }
 
 #[test]
+fn a_sample_that_lacks_something_before_a_pause_is_due_in_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let [whole, lacking] = ["whole.mcap", "lacking.mcap"].map(|name| folder.path().join(name));
+    let endpoint = "mxtp://127.0.0.1:9763".to_owned();
+    let mut writer = Writer::create(&lacking, &[endpoint], WriterOptions::default()).unwrap();
+    for mut datagram in record_walk("mxtp://127.0.0.1:0", &whole) {
+        let sample = u32::from_be_bytes(*datagram.bytes[6..].first_chunk().unwrap());
+        if sample == 36 && datagram.bytes[4..6] == *b"25" {
+            continue;
+        }
+        if sample > 36 {
+            datagram.received = datagram.received.after(Duration::from_secs(2));
+        }
+        writer.datagram(SourceId(0), &Arc::new(datagram)).unwrap();
+    }
+    writer.finish().unwrap();
+
+    let source = Source::open(&lacking.display().to_string().parse().unwrap(), &faster()).unwrap();
+    let (dues, gatherer) = (Dues::default(), Gatherer::default());
+    let sinks: Vec<Box<dyn Sink>> = vec![Box::new(dues.clone()), Box::new(gatherer.clone())];
+    Session::start([source], sinks, Stop::new()).wait().unwrap();
+    assert_eq!(gatherer.lock().frames.len(), 144);
+    assert_eq!(dues.0.lock().unwrap()[&SourceId(0)].len(), 144);
+}
+
+#[test]
 fn subjects_of_all_sources_are_sent_as_characters_of_their_own() {
     let folder = tempfile::tempdir().unwrap();
     let path = record_twice(folder.path(), Duration::ZERO);

@@ -33,6 +33,7 @@ impl Sink for Raw {
         Wants {
             frames: false,
             datagrams: true,
+            ahead: false,
         }
     }
 

@@ -5,11 +5,10 @@ use super::newest::Newest;
 use crate::frame::{Arrival, Frame};
 use posewire::queue::Policy;
 use posewire::stats::Statistics;
-use posewire::{Item, Notice, Result, Sink, SourceId};
-use posewire_motion::Stamp;
+use posewire::{Foremost, Item, Notice, Result, Sink, SourceId, Wants};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant, SystemTime};
+use std::time::Duration;
 
 /// How samples are kept, and for how long they are worth something.
 #[derive(Clone, Copy, Debug)]
@@ -37,6 +36,7 @@ struct Shared {
 #[derive(Default)]
 struct Held {
     waiting: VecDeque<Frame>,
+    foremost: Foremost,
     newest: Newest,
     /// Whether anybody has begun to take samples out one by one: before, old ones make room and nobody misses them.
     is_read: bool,
@@ -157,18 +157,23 @@ impl Inbox {
         self.shared.held.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn keep(&self, source: SourceId, frame: &Arc<posewire_motion::Frame>) {
+    /// Keeps a sample that comes in its turn, or ahead of it for those who want the newest alone.
+    fn keep(&self, source: SourceId, item: &Item, frame: &Arc<posewire_motion::Frame>) {
         let arrived = Frame {
             frame: Arc::clone(frame),
             arrival: Some(Arrival {
-                at: arrived(frame.received),
+                at: item.arrived(),
                 stale_after: self.keeping.stale_after,
                 lost_after: self.keeping.lost_after,
             }),
         };
         let mut held = self.lock();
-        held.newest.put(source, &arrived);
-        held.add(arrived, self.keeping.capacity);
+        if held.foremost.newest(source, item).is_some() {
+            held.newest.put(source, &arrived);
+        }
+        if matches!(item, Item::Frame { .. }) {
+            held.add(arrived, self.keeping.capacity);
+        }
         self.rouse(held);
     }
 }
@@ -204,9 +209,16 @@ impl Sink for Inbox {
         (Policy::Lossless, self.keeping.capacity.max(1024))
     }
 
+    fn wants(&self) -> Wants {
+        Wants {
+            ahead: true,
+            ..Wants::default()
+        }
+    }
+
     fn accept(&mut self, source: SourceId, item: &Item) -> Result<()> {
         match item {
-            Item::Frame { frame, .. } => self.keep(source, frame),
+            Item::Frame { frame, .. } | Item::Ahead { frame, .. } => self.keep(source, item, frame),
             Item::Statistics(statistics) => {
                 self.lock().statistics.insert(source, Arc::clone(statistics));
             }
@@ -220,15 +232,6 @@ impl Sink for Inbox {
         self.end();
         Ok(())
     }
-}
-
-/// When a sample arrived, by the clock that nobody sets: now, less what has passed since the kernel had it. What is longer ago
-/// than a second, or to come, is of a recording or of a clock that was set.
-fn arrived(received: Option<Stamp>) -> Instant {
-    let now = Instant::now();
-    let ago = received.map(|received| Stamp::from(SystemTime::now()).since(received));
-    let ago = ago.filter(|ago| *ago < Duration::from_secs(1)).unwrap_or_default();
-    now.checked_sub(ago).unwrap_or(now)
 }
 
 const MOST_NOTICES: usize = 100;

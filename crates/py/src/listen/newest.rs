@@ -7,8 +7,7 @@ use std::time::Instant;
 
 /// The newest sample of each subject, and which of them is the newest of all.
 ///
-/// Of one subject the source's own order counts, which the engine has worked out: a sample that others have overtaken on the way
-/// replaces none of them, and one of a source that has begun anew does, whatever its number. Between subjects it is the arrival.
+/// Of one subject it is the one that was put in last, and between subjects the one that arrived last.
 #[derive(Default)]
 pub(super) struct Newest {
     frames: BTreeMap<Of, Frame>,
@@ -20,9 +19,6 @@ type Of = (SourceId, u32);
 
 impl Newest {
     pub(super) fn put(&mut self, source: SourceId, frame: &Frame) {
-        if frame.frame.late {
-            return;
-        }
         let of = (source, frame.frame.subject.id);
         let last = self.last.and_then(|last| self.frames.get(&last));
         if last.is_none_or(|last| arrived(last) <= arrived(frame)) {

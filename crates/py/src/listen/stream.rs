@@ -169,8 +169,8 @@ impl Stream {
             .is_none_or(|listening| listening.inbox.has_ended())
     }
 
-    /// The newest sample, of all subjects or of the one with this name: never one that a newer of its subject had overtaken. Of
-    /// all subjects it is the one that arrived last.
+    /// The newest complete sample, of all subjects or of the one with this name, also while one before it still lacks something:
+    /// never one that a newer of its subject had overtaken. Of all subjects it is the one that arrived last.
     ///
     /// It waits, for `timeout` seconds at most, only while there is none yet; None if there is none then. A sample that is there
     /// is given at once, however old: its `age` and its `state` say so.
@@ -189,7 +189,7 @@ impl Stream {
     }
 
     /// How the stream is doing, as `posewire monitor --json` tells it: a list of dicts, each with its "kind". It is counted once
-    /// a second.
+    /// a second; in the first one the list is empty.
     fn statistics<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         numbers::of(py, &self.listening.here()?.inbox.statistics())
     }

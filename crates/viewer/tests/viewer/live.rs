@@ -3,9 +3,9 @@
 use crate::harness::{Stage, ada, ask};
 use posewire::stats::Statistics;
 use posewire::{Item, Notice};
-use posewire_motion::{DVec3, Frame, Skeleton, Subject};
+use posewire_motion::{DVec3, Frame, Skeleton, Stamp, Subject};
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, SystemTime};
 
 #[test]
 fn a_page_first_hears_who_is_there_and_then_sees_them_move() {
@@ -35,6 +35,43 @@ fn a_page_first_hears_who_is_there_and_then_sees_them_move() {
     let told = ask(stage.address(), "/api/scene").json();
     assert_eq!(told["subjects"], scene["subjects"]);
     assert_eq!(told["type"], serde_json::Value::Null);
+}
+
+/// A sample of a subject.
+fn sample(subject: &Arc<Subject>, number: u32) -> Arc<Frame> {
+    let mut frame = Frame::new(Arc::clone(subject));
+    frame.sample = number;
+    frame.position = vec![Some(DVec3::Z); subject.skeleton.segments.len()];
+    Arc::new(frame)
+}
+
+#[test]
+fn a_sample_ahead_of_its_turn_is_shown_and_those_that_it_is_ahead_of_are_not() {
+    let (mut stage, subject) = (Stage::new(), ada());
+    let mut page = stage.page();
+    let ahead = sample(&subject, 3);
+    stage.push(&Item::Ahead {
+        frame: Arc::clone(&ahead),
+        due: None,
+    });
+    assert_eq!(page.moved().records[0].sample, 3);
+    for frame in [sample(&subject, 2), ahead, sample(&subject, 4)] {
+        stage.push(&Item::Frame { frame, due: None });
+    }
+    let next = std::iter::from_fn(|| Some(page.moved().records[0].sample)).find(|sample| *sample != 3);
+    assert_eq!(next, Some(4));
+}
+
+#[test]
+fn a_sample_that_was_held_for_long_is_not_shown_as_new() {
+    let (mut stage, subject) = (Stage::new(), ada());
+    let now = Stamp::from(SystemTime::now());
+    let mut frame = Frame::clone(&sample(&subject, 1));
+    frame.received = Some(Stamp(now.nanoseconds() - 5_000_000_000));
+    stage.show(frame);
+    let shown = &stage.page().moved().records[0];
+    assert!((4.9..15.0).contains(&shown.age_s), "{}", shown.age_s);
+    assert_eq!(shown.state, 2);
 }
 
 #[test]

@@ -11,6 +11,7 @@ use posewire_motion::Frame;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
 
 /// The newest of everything that a stream brought. Clones are the same board.
 #[derive(Clone)]
@@ -27,7 +28,8 @@ pub(super) struct Board {
 
 #[derive(Default)]
 struct Newest {
-    frames: BTreeMap<u32, Arc<Frame>>,
+    /// Of each character, and when it arrived.
+    frames: BTreeMap<u32, (Arc<Frame>, Instant)>,
     statistics: Option<Arc<Statistics>>,
     /// The newest word about the connection.
     notice: Option<Notice>,
@@ -113,9 +115,13 @@ impl Board {
         self.lock().statistics.clone()
     }
 
-    /// The newest sample of each character.
-    pub(super) fn frames(&self) -> Vec<Arc<Frame>> {
-        self.lock().frames.values().cloned().collect()
+    /// The newest sample of each character, and how long ago it arrived.
+    pub(super) fn frames(&self) -> Vec<(Arc<Frame>, Duration)> {
+        let newest = self.lock();
+        let frames = newest.frames.values();
+        frames
+            .map(|(frame, arrived)| (Arc::clone(frame), arrived.elapsed()))
+            .collect()
     }
 
     /// Whether the file that is played ended before its end.
@@ -169,7 +175,9 @@ impl Sink for BoardSink {
         let mut newest = board.lock();
         match item {
             Item::Frame { frame, .. } => {
-                newest.frames.insert(frame.subject.id, Arc::clone(frame));
+                newest
+                    .frames
+                    .insert(frame.subject.id, (Arc::clone(frame), item.arrived()));
                 newest.samples += 1;
                 let counted = board.counted.fetch_add(1, Ordering::Relaxed) + 1;
                 if board.count.is_some_and(|count| counted >= count) {

@@ -55,12 +55,12 @@ impl<'a> Decoder<'a> {
         self.look()
     }
 
-    /// Lets so much time pass; `false` when no sink is left.
-    pub(super) fn tick(&mut self, time: Duration) -> bool {
+    /// Lets so much time pass, until what happens now is `due`; `false` when no sink is left.
+    pub(super) fn tick(&mut self, time: Duration, due: Option<Instant>) -> bool {
         self.now = self.now.after(time);
         match &mut self.reader {
-            Reader::Mxtp(intake) => intake.go_on(self.now, None),
-            Reader::NatNet(intake) => intake.go_on(self.now, None),
+            Reader::Mxtp(intake) => intake.go_on(self.now, due),
+            Reader::NatNet(intake) => intake.go_on(self.now, due),
         }
         self.look()
     }

@@ -231,7 +231,7 @@ fn pass(
             return pacer.wait(time.end);
         }
         at += step;
-        if !pacer.wait(at) || !decoder.tick(step) {
+        if !pacer.wait(at) || !decoder.tick(step, pacer.deadline(at)) {
             return false;
         }
     }

@@ -6,7 +6,7 @@ use crate::source::timeline::Timeline;
 use crate::stats::{Edge, Tally};
 use crate::{Datagram, Item, Notice, Wire};
 use posewire_motion::Stamp;
-use posewire_mxtp::{Assembler, Event};
+use posewire_mxtp::{Assembler, AssemblerOptions, Event};
 use std::net::SocketAddr;
 use std::sync::Arc;
 use std::time::Instant;
@@ -44,8 +44,12 @@ impl<'a> Intake<'a> {
 
     /// Goes by this time.
     pub(in crate::source) fn at(time: Timeline, outlet: &'a mut Outlet) -> Self {
+        let options = AssemblerOptions {
+            ahead: outlet.wants_ahead(),
+            ..AssemblerOptions::default()
+        };
         Self {
-            assembler: Assembler::new(),
+            assembler: Assembler::with_options(options),
             tally: Tally::new(time.now()),
             reports: Reports::new(),
             time,
@@ -137,6 +141,7 @@ impl<'a> Intake<'a> {
                     self.tally.sample(&frame);
                     self.outlet.push(Item::Frame { frame, due: self.due });
                 }
+                Event::Ahead(frame) => self.outlet.push(Item::Ahead { frame, due: self.due }),
                 Event::Message {
                     character,
                     message_type,

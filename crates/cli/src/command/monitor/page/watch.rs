@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 /// Remembers what it needs to tell how old a sample is and how fast the stream runs.
 pub(super) struct Watch {
     opened: Instant,
-    /// The newest sample of each character, and when it was first seen here: no clock of the sender is trusted.
+    /// The newest sample of each character, and when it arrived here: no clock of the sender is trusted.
     seen: BTreeMap<u32, (Arc<Frame>, Instant)>,
     statistics: Option<Arc<Statistics>>,
     /// Datagrams and bytes a second between the last two statistics.
@@ -90,14 +90,12 @@ impl Watch {
         self.statistics = Some(newest);
     }
 
-    fn note_frames(&mut self, frames: Vec<Arc<Frame>>, now: Instant) {
-        for frame in frames {
-            let seen = self
-                .seen
-                .entry(frame.subject.id)
-                .or_insert_with(|| (Arc::clone(&frame), now));
-            if !Arc::ptr_eq(&seen.0, &frame) {
-                *seen = (frame, now);
+    fn note_frames(&mut self, frames: Vec<(Arc<Frame>, Duration)>, now: Instant) {
+        for (frame, age) in frames {
+            let is_known = |(known, _): &(Arc<Frame>, Instant)| Arc::ptr_eq(known, &frame);
+            if !self.seen.get(&frame.subject.id).is_some_and(is_known) {
+                let arrived = now.checked_sub(age).unwrap_or(now);
+                self.seen.insert(frame.subject.id, (frame, arrived));
             }
         }
     }
@@ -165,6 +163,8 @@ mod tests {
     use super::*;
     use posewire::stop::Stop;
     use posewire::{Item, Sink, SourceId};
+    use posewire_motion::Stamp;
+    use std::time::SystemTime;
 
     fn board() -> Board {
         Board::new(&"mxtp://127.0.0.1:9763".parse().unwrap(), None, Stop::new())
@@ -199,6 +199,18 @@ mod tests {
         assert_eq!(state_after(2_100), Some(State::Lost));
         sink.accept(SourceId(0), &sample(3)).unwrap();
         assert_eq!(state_after(2_200), Some(State::Live));
+    }
+
+    #[test]
+    fn a_sample_that_was_held_is_as_old_as_its_arrival() {
+        let (board, start) = (board(), Instant::now());
+        let (mut sink, mut watch) = (Board::sink(std::slice::from_ref(&board)), Watch::new(start));
+        let mut frame = example::standing(3, "Ada");
+        frame.received = Some(Stamp(Stamp::from(SystemTime::now()).nanoseconds() - 5_000_000_000));
+        let frame = Arc::new(frame);
+        sink.accept(SourceId(0), &Item::Frame { frame, due: None }).unwrap();
+        let view = watch.look(&board, Instant::now());
+        assert_eq!(view.characters[0].state(), State::Lost);
     }
 
     #[test]
