@@ -128,7 +128,7 @@ impl Sequence {
             1..HALF if self.is_jump(step, now) || self.goes_on_ahead(sample) => self.suspect(sample, now),
             1..HALF => (self.forward(sample, step, now), Home::Session),
             _ if behind > 0 && silent => (self.begin_after_silence(sample, now), Home::Session),
-            _ if self.is_too_old(behind) => self.suspect(sample, now),
+            _ if self.is_too_old(behind) || self.goes_on_far_back(sample) => self.suspect(sample, now),
             _ => (self.known(sample, now), Home::Session),
         }
     }
@@ -277,6 +277,11 @@ impl Sequence {
             return false;
         };
         matches!(last.wrapping_sub(newest), 1..HALF) && self.suspects.lead_to(sample, self.stride.unwrap_or(1))
+    }
+
+    /// Whether a sample that could be late goes on with suspects that cannot: it is to come after them.
+    fn goes_on_far_back(&self, sample: u32) -> bool {
+        self.suspects.are_far() && self.suspects.lead_to(sample, self.stride.unwrap_or(1)) && !self.remembers(sample)
     }
 
     /// After a silence what goes back needs no others. Those right before it are its own all the same.

@@ -58,6 +58,11 @@ impl Suspects {
         self.count == LESSON
     }
 
+    /// Whether they are not at home in the session.
+    pub(super) const fn are_far(&self) -> bool {
+        self.count > 0 && !self.at_home
+    }
+
     pub(super) const fn are_contradicted(&self) -> bool {
         self.contradictions > 0
     }

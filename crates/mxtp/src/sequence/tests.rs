@@ -265,6 +265,15 @@ fn a_stray_among_the_first_samples_of_a_session_does_not_hide_it() {
 }
 
 #[test]
+fn a_session_that_grows_into_where_samples_are_late_keeps_its_order() {
+    let mut sequence = Sequence::new();
+    let seen = observe(&mut sequence, (540..724).chain(466..474));
+    assert_eq!(seen[184..191], [Observation::Stray; 7]);
+    assert_eq!(seen[191], Observation::Reset(ResetKind::Rewind));
+    assert_eq!(sequence.tally().late, 0);
+}
+
+#[test]
 fn the_first_samples_of_a_session_may_swap() {
     for place in 0..7 {
         let mut run: Vec<u32> = (0..8).collect();
