@@ -83,7 +83,6 @@ pub enum Observation {
 ///
 /// A counter is taken to have gone back when it did after half a second of silence, or when eight samples came in a row
 /// that are known, older or too far away, and no new one (where they are too far away to be late, five new ones at most).
-/// Where all samples of the session, three at least, came again in their order, the next one is enough.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ResetKind {
     /// The counter went back to where it can have come from 0 since the newest sample: a new session of the sender.
@@ -124,7 +123,6 @@ impl Sequence {
         let (step, behind) = (sample.wrapping_sub(newest), newest.wrapping_sub(sample));
         let silent = now.since(self.pace.newest) > SILENCE;
         match step {
-            1..HALF if self.begins_again(sample) => (self.take_over(sample, now), Home::Session),
             1..HALF if self.is_jump(step, now) || self.goes_on_ahead(sample) => self.suspect(sample, now),
             1..HALF => (self.forward(sample, step, now), Home::Session),
             _ if behind > 0 && silent => (self.begin_after_silence(sample, now), Home::Session),
@@ -263,12 +261,6 @@ impl Sequence {
     fn has_resumed(&self) -> bool {
         let continued = self.before.as_ref().map_or(0, |before| before.continued());
         continued.min(self.suspects.samples().len()) >= RESUMED && !self.suspects.are_contradicted()
-    }
-
-    /// Whether all samples of the session have come again, and this is the next.
-    fn begins_again(&self, sample: u32) -> bool {
-        let again = self.suspects.samples();
-        again.len() >= RESUMED && self.window.is(again) && self.suspects.lead_to(sample, self.stride.unwrap_or(1))
     }
 
     /// Whether a sample goes on with suspects that are newer than the session.

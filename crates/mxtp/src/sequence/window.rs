@@ -30,11 +30,6 @@ impl Window {
         self.0.contains(&sample)
     }
 
-    /// Whether these are all.
-    pub(super) fn is(&self, samples: &[u32]) -> bool {
-        self.0.len() == samples.len() && self.0.iter().eq(samples)
-    }
-
     /// Forgets all and begins with these.
     pub(super) fn restart(&mut self, samples: &[u32]) {
         self.0.clear();
