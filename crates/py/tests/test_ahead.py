@@ -76,7 +76,7 @@ def test_the_newest_is_never_behind_where_one_datagram_in_fifty_is_lost(walk):
 
 def test_the_newest_follows_a_source_that_begins_again_while_a_sample_is_waited_for(walk):
     descriptions, samples = of_samples(walk, range(5000, 5010), timecodes=True)
-    _, again = of_samples(walk, range(6), timecodes=True)
+    _, again = of_samples(walk, range(10), timecodes=True)
     with posewire.listen("mxtp://127.0.0.1:0") as stream, Sender(stream.url) as sender:
         sender.send(descriptions)
         for number in range(5000, 5006):
@@ -84,9 +84,12 @@ def test_the_newest_follows_a_source_that_begins_again_while_a_sample_is_waited_
         sender.send(samples[5006][:1])
         for number in (5007, 5008):
             delay(stream, sender, samples[number], number)
-        for number in range(6):
+        # Eight show that it began again.
+        for number in range(7):
+            sender.send(again[number])
+        for number in range(7, 10):
             delay(stream, sender, again[number], number)
-        assert numbers_of(stream.next(timeout=10) for _ in range(15)) == [*range(5000, 5009), *range(6)]
+        assert numbers_of(stream.next(timeout=10) for _ in range(19)) == [*range(5000, 5009), *range(10)]
 
 
 def test_a_sample_that_was_held_is_as_old_as_its_arrival(walk):
