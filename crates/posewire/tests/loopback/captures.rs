@@ -10,7 +10,7 @@ use posewire::sink::{MxtpSink, NatNetSink, NatNetSinkOptions, RecordOptions, Rec
 use posewire::source::PlaybackOptions;
 use posewire::stop::Stop;
 use posewire::{Datagram, Error, Item, Session, Sink, Source, SourceId, Wire};
-use posewire_motion::{Frame, Stamp};
+use posewire_motion::Stamp;
 use posewire_mxtp::MessageType;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -65,7 +65,7 @@ fn payloads(datagrams: &[Datagram]) -> Vec<&[u8]> {
 }
 
 /// Records 72 samples of two walkers over MXTP.
-fn record_walk(endpoint: &str, path: &Path) -> Vec<Datagram> {
+pub(crate) fn record_walk(endpoint: &str, path: &Path) -> Vec<Datagram> {
     let recorder = Recorder::start(open(endpoint).unwrap(), path);
     let sink = MxtpSink::open(std::slice::from_ref(&recorder.endpoint), types("02,12,13,25")).unwrap();
     play_first("synthetic:walk?people=2", 144, sink);
@@ -80,7 +80,7 @@ fn replay(path: &Path, to: &Endpoint, options: &ReplayOptions) -> Replayed {
 }
 
 /// Plays a capture as a source and gives what was read.
-fn play(path: &Path, options: &PlaybackOptions) -> Gathered {
+pub(crate) fn play(path: &Path, options: &PlaybackOptions) -> Gathered {
     let source = Source::open(&path.display().to_string().parse().unwrap(), options).unwrap();
     assert!(!source.is_live());
     let gatherer = Gatherer::default();
@@ -336,7 +336,7 @@ fn a_loop_sends_the_same_bytes_again_until_it_is_stopped() {
 }
 
 /// Records a walker over NatNet.
-fn record_natnet(path: &Path, frames: usize) -> Vec<Datagram> {
+pub(crate) fn record_natnet(path: &Path, frames: usize) -> Vec<Datagram> {
     record_natnet_of("natnet://127.0.0.1:0?data-port=0", path, frames)
 }
 
@@ -548,69 +548,3 @@ fn frames_of_a_replay_are_copied_to_the_data_port_when_asked() {
         assert_eq!(&buffer[..length], frame);
     }
 }
-
-/// What a capture of these datagrams gives, read at once: subjects, samples, and what these have.
-fn read_with_stamps(path: &Path, datagrams: &[Datagram], stamp: fn(usize, Stamp) -> Stamp) -> Vec<String> {
-    let mut writer = PcapWriter::create(path, true).unwrap();
-    for (place, datagram) in datagrams.iter().enumerate() {
-        let received = stamp(place, datagram.received);
-        let stamped = Datagram {
-            received,
-            ..datagram.clone()
-        };
-        writer.write(&stamped).unwrap();
-    }
-    writer.finish().unwrap();
-    let options = PlaybackOptions {
-        speed: PlaybackOptions::AT_ONCE,
-        ..PlaybackOptions::default()
-    };
-    let played = play(path, &options);
-    let frames = played.frames.iter();
-    let mut frames: Vec<_> = frames
-        .map(|frame| {
-            let Frame {
-                subject,
-                sample,
-                timecode,
-                orientation,
-                ..
-            } = &**frame;
-            format!("{} {sample:04} {timecode:?} {orientation:?}", subject.id)
-        })
-        .collect();
-    frames.sort_unstable();
-    frames
-}
-
-#[test]
-fn what_the_clock_of_a_capture_does_takes_no_time_and_no_sample() {
-    let folder = tempfile::tempdir().unwrap();
-    let [walk, other] = ["walk.mcap", "other.pcapng"].map(|name| folder.path().join(name));
-    let sent = [
-        record_walk("mxtp://127.0.0.1:0", &walk),
-        record_natnet(&folder.path().join("natnet.mcap"), 60),
-    ];
-    for datagrams in sent {
-        let began = Instant::now();
-        let read = |stamp: fn(usize, Stamp) -> Stamp| read_with_stamps(&other, &datagrams, stamp);
-        let whole = read(|_, at| at);
-        // That of a board without a battery is set when it finds a network.
-        assert_eq!(
-            read(|place, at| if place < 30 {
-                Stamp(at.0 % 1_000_000_000_000)
-            } else {
-                at
-            }),
-            whole
-        );
-        // A bit has flipped in one stamp.
-        assert_eq!(
-            read(|place, at| if place == 20 { at.after(DAY * 4096) } else { at }),
-            whole
-        );
-        assert!(began.elapsed() < PATIENCE);
-    }
-}
-
-const DAY: Duration = Duration::from_hours(24);

@@ -1,6 +1,7 @@
 //! Streams over the loopback, from a source through real sockets to a source on the other side.
 
 mod captures;
+mod captures_clock;
 mod datagrams;
 mod doctor;
 mod ends;
